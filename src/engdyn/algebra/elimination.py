@@ -1,0 +1,131 @@
+"""Linear algebra over a trigonometric ring: elimination without fractions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from engdyn.algebra.ring import Element
+
+__all__ = ["Elimination", "determinant", "eliminate", "solve"]
+
+Row = list[Element]
+
+
+@dataclass(frozen=True)
+class Elimination:
+    """What is left of a set of linear rows when the leading columns are eliminated.
+
+    Attributes
+    ----------
+    pivots : list of (column, row)
+        Triangular rows, in the order in which their columns were eliminated.
+    remaining : list of (origin, row)
+        Rows without the eliminated columns; `origin` is the number of the row they came from.
+    missing : list of int
+        Leading columns that could not be eliminated because no row contains them independently.
+    """
+
+    pivots: list[tuple[int, Row]]
+    remaining: list[tuple[int, Row]]
+    missing: list[int]
+
+
+def eliminate(rows: Sequence[Row], columns: int) -> Elimination:
+    """Eliminate the first `columns` columns from linear rows by fraction-free row operations.
+
+    Pivots are taken where they cost least: numbers first, then short polynomials (the idea of
+    Markowitz, *Management Science* 3, 1957, carried to polynomial entries).
+    """
+    active = [(origin, list(row)) for origin, row in enumerate(rows)]
+    open_columns, pivots = set(range(columns)), []
+    while open_columns:
+        best = min(
+            (
+                (_cost(row[column]), position, column)
+                for position, (_, row) in enumerate(active)
+                for column in open_columns
+                if not row[column].is_zero()
+            ),
+            default=None,
+        )
+        if best is None:
+            break
+        _, position, column = best
+        _, pivot = active.pop(position)
+        open_columns.discard(column)
+        pivots.append((column, pivot))
+        active = [(origin, _cleared(row, pivot, column)) for origin, row in active]
+    return Elimination(pivots, active, sorted(open_columns))
+
+
+def _cost(entry: Element) -> tuple[int, int]:
+    constant = entry.as_rational() is not None
+    return (0, 0) if constant else (1, len(entry.numerator))
+
+
+def _cleared(row: Row, pivot: Row, column: int) -> Row:
+    """`row` without `column`, a multiple of `pivot` subtracted."""
+    head = row[column]
+    if head.is_zero():
+        return row
+    value = pivot[column].as_rational()
+    if value is not None:
+        factor = head * (1 / value)
+        return [a if b.is_zero() else a - factor * b for a, b in zip(row, pivot, strict=True)]
+    return primitive([pivot[column] * a - head * b for a, b in zip(row, pivot, strict=True)])
+
+
+def primitive(row: Row) -> Row:
+    """A row divided by what all its entries have in common, denominators cleared."""
+    ring = row[0].ring
+    ps = ring.polynomials
+    for entry in row:
+        if entry.denominator is not None:
+            below = Element(ring, entry.denominator)
+            row = [a * below for a in row]
+            return primitive(row)
+    common = ps.zero
+    for entry in row:
+        if not entry.is_zero():
+            common = entry.numerator if ps.is_zero(common) else ps.gcd(common, entry.numerator)
+            if ps.is_constant(common):
+                return row
+    if ps.is_zero(common):
+        return row
+    return [Element(ring, ps.quotient(a.numerator, common)) for a in row]
+
+
+def solve(rows: Sequence[Row], unknowns: int) -> list[Element] | None:
+    """Solve rows ``A x + b = 0`` given as ``[A | b]`` for x; None where A is singular.
+
+    Parameters
+    ----------
+    rows : sequence of rows with ``unknowns + 1`` columns
+    unknowns : int
+    """
+    done = eliminate(rows, unknowns)
+    if done.missing:
+        return None
+    found: dict[int, Element] = {}
+    for column, row in reversed(done.pivots):
+        total = row[unknowns]
+        for other, value in found.items():
+            if not row[other].is_zero():
+                total = total + row[other] * value
+        found[column] = -total / row[column]
+    return [found[i] for i in range(unknowns)]
+
+
+def determinant(matrix: Sequence[Row]) -> Element:
+    """Determinant by Laplace expansion along the emptiest row (matrices here are small)."""
+    if len(matrix) == 1:
+        return matrix[0][0]
+    at = max(range(len(matrix)), key=lambda i: sum(a.is_zero() for a in matrix[i]))
+    total = matrix[0][0].ring.zero
+    for j, entry in enumerate(matrix[at]):
+        if not entry.is_zero():
+            minor = [[*row[:j], *row[j + 1 :]] for i, row in enumerate(matrix) if i != at]
+            part = entry * determinant(minor)
+            total = total + part if (at + j) % 2 == 0 else total - part
+    return total

@@ -1,0 +1,189 @@
+"""Sparse polynomials over the rationals, in C where python-flint is installed.
+
+Two backends stand behind one small interface: python-flint's ``fmpq_mpoly`` and, where it has no
+wheel, the ``sympy.polys`` rings.  Nothing else in engdyn knows which of them is at work.  The
+environment variable ``ENGDYN_BACKEND`` (``flint`` or ``sympy``) forces one of them.
+
+Polynomials of both backends add, subtract, multiply and compare with ``+ - * ** ==``; everything
+that differs between them is a method of :class:`FlintPolynomials` or :class:`SympyPolynomials`.
+"""
+
+from __future__ import annotations
+
+import os
+from fractions import Fraction
+from typing import Any
+
+__all__ = ["FlintPolynomials", "SympyPolynomials", "backend_name", "polynomials"]
+
+Polynomial = Any
+Exponents = tuple[int, ...]
+
+
+def backend_name() -> str:
+    """Name of the backend in force: ``"flint"`` or ``"sympy"``."""
+    wanted = os.environ.get("ENGDYN_BACKEND", "").lower()
+    if wanted in ("flint", "sympy"):
+        return wanted
+    try:
+        import flint  # noqa: F401
+    except ImportError:
+        return "sympy"
+    return "flint"
+
+
+def polynomials(count: int) -> FlintPolynomials | SympyPolynomials:
+    """Polynomials in `count` generators, ordered lexicographically (the first leads)."""
+    return FlintPolynomials(count) if backend_name() == "flint" else SympyPolynomials(count)
+
+
+class FlintPolynomials:
+    """Polynomials in `count` generators on python-flint."""
+
+    def __init__(self, count: int):
+        import flint
+
+        self._flint = flint
+        self._context = flint.fmpq_mpoly_ctx.get(("g", max(count, 1)), flint.Ordering.lex)
+        self.gens: tuple[Polynomial, ...] = tuple(self._context.gens())
+        self.zero = self._context.constant(0)
+        self.one = self._context.constant(1)
+
+    def constant(self, value: Fraction | int) -> Polynomial:
+        """The constant polynomial `value`."""
+        value = Fraction(value)
+        return self._context.constant(self._flint.fmpq(value.numerator, value.denominator))
+
+    def from_terms(self, terms: dict[Exponents, Fraction]) -> Polynomial:
+        """The sum of the given terms: exponents of all generators → coefficient."""
+        fmpq = self._flint.fmpq
+        return self._context.from_dict({e: fmpq(c.numerator, c.denominator) for e, c in terms.items()})
+
+    def terms(self, p: Polynomial) -> list[tuple[Exponents, Fraction]]:
+        """Exponents and coefficient of every term."""
+        return [(e, Fraction(int(c.p), int(c.q))) for e, c in zip(p.monoms(), p.coeffs(), strict=True)]
+
+    def is_zero(self, p: Polynomial) -> bool:
+        """Whether `p` is the zero polynomial."""
+        return p.is_zero()
+
+    def is_constant(self, p: Polynomial) -> bool:
+        """Whether `p` contains no generator."""
+        return p.is_constant()
+
+    def degrees(self, p: Polynomial) -> Exponents:
+        """Degree of `p` in every generator."""
+        return p.degrees()
+
+    def derivative(self, p: Polynomial, generator: int) -> Polynomial:
+        """Partial derivative with respect to the generator of that index."""
+        return p.derivative(generator)
+
+    def remainder(self, p: Polynomial, divisor: Polynomial) -> Polynomial:
+        """Remainder of the division of `p` by `divisor` in the lexicographic order."""
+        return divmod(p, divisor)[1]
+
+    def gcd(self, a: Polynomial, b: Polynomial) -> Polynomial:
+        """Greatest common divisor, monic."""
+        return a.gcd(b)
+
+    def quotient(self, p: Polynomial, divisor: Polynomial) -> Polynomial:
+        """Exact quotient (the caller knows that the division leaves no remainder)."""
+        return divmod(p, divisor)[0]
+
+    def factor(self, p: Polynomial) -> tuple[Fraction, list[tuple[Polynomial, int]]]:
+        """Rational content and the irreducible factors with their multiplicities."""
+        content, factors = p.factor()
+        return Fraction(int(content.p), int(content.q)), [(f, int(m)) for f, m in factors]
+
+    def leading_coefficient(self, p: Polynomial) -> Fraction:
+        """Coefficient of the leading term (0 for the zero polynomial)."""
+        if p.is_zero():
+            return Fraction(0)
+        c = p.leading_coefficient()
+        return Fraction(int(c.p), int(c.q))
+
+    def transfer(self, p: Polynomial, target: FlintPolynomials, mapping: list[int]) -> Polynomial:
+        """`p` written in the generators of `target`; generator i becomes generator ``mapping[i]``."""
+        # compose, not project_to_context: that one ignores the mapping between rings of equal size
+        return p.compose(*(target.gens[i] for i in mapping), ctx=target._context)
+
+
+class SympyPolynomials:
+    """Polynomials in `count` generators on the rings of ``sympy.polys``: pure Python, slower."""
+
+    def __init__(self, count: int):
+        from sympy import QQ, lex
+        from sympy.polys.rings import ring
+
+        self._qq = QQ
+        self._ring, *gens = ring([f"g{i}" for i in range(max(count, 1))], QQ, lex)
+        self.gens: tuple[Polynomial, ...] = tuple(gens)
+        self.zero = self._ring.zero
+        self.one = self._ring.one
+
+    def _rational(self, value: Fraction | int) -> Any:
+        value = Fraction(value)
+        return self._qq(value.numerator, value.denominator)
+
+    def constant(self, value: Fraction | int) -> Polynomial:
+        """The constant polynomial `value`."""
+        return self._ring.ground_new(self._rational(value))
+
+    def from_terms(self, terms: dict[Exponents, Fraction]) -> Polynomial:
+        """The sum of the given terms: exponents of all generators → coefficient."""
+        return self._ring.from_dict({e: self._rational(c) for e, c in terms.items()})
+
+    def terms(self, p: Polynomial) -> list[tuple[Exponents, Fraction]]:
+        """Exponents and coefficient of every term."""
+        return [(tuple(e), Fraction(int(c.numerator), int(c.denominator))) for e, c in p.terms()]
+
+    def is_zero(self, p: Polynomial) -> bool:
+        """Whether `p` is the zero polynomial."""
+        return not p
+
+    def is_constant(self, p: Polynomial) -> bool:
+        """Whether `p` contains no generator."""
+        return p.is_ground
+
+    def degrees(self, p: Polynomial) -> Exponents:
+        """Degree of `p` in every generator."""
+        return tuple(max(0, int(d)) if p else -1 for d in p.degrees()) if p else (-1,) * len(self.gens)
+
+    def derivative(self, p: Polynomial, generator: int) -> Polynomial:
+        """Partial derivative with respect to the generator of that index."""
+        return p.diff(generator)
+
+    def remainder(self, p: Polynomial, divisor: Polynomial) -> Polynomial:
+        """Remainder of the division of `p` by `divisor` in the lexicographic order."""
+        return p.rem(divisor)
+
+    def gcd(self, a: Polynomial, b: Polynomial) -> Polynomial:
+        """Greatest common divisor, monic."""
+        return a.gcd(b).monic()
+
+    def quotient(self, p: Polynomial, divisor: Polynomial) -> Polynomial:
+        """Exact quotient (the caller knows that the division leaves no remainder)."""
+        return p.div(divisor)[0]
+
+    def factor(self, p: Polynomial) -> tuple[Fraction, list[tuple[Polynomial, int]]]:
+        """Rational content and the irreducible factors with their multiplicities."""
+        content, factors = p.factor_list()
+        return Fraction(int(content.numerator), int(content.denominator)), [(f, int(m)) for f, m in factors]
+
+    def leading_coefficient(self, p: Polynomial) -> Fraction:
+        """Coefficient of the leading term (0 for the zero polynomial)."""
+        c = p.LC
+        return Fraction(int(c.numerator), int(c.denominator))
+
+    def transfer(self, p: Polynomial, target: SympyPolynomials, mapping: list[int]) -> Polynomial:
+        """`p` written in the generators of `target`; generator i becomes generator ``mapping[i]``."""
+        width = len(target.gens)
+        terms = {}
+        for exponents, coefficient in p.terms():
+            moved = [0] * width
+            for i, e in enumerate(exponents):
+                if e:
+                    moved[mapping[i]] += e
+            terms[tuple(moved)] = terms.get(tuple(moved), 0) + coefficient
+        return target._ring.from_dict(terms)

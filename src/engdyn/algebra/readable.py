@@ -1,0 +1,260 @@
+"""From ring elements back to formulas that people like to read.
+
+An element is first turned into a small tree: grouped by products of speeds and accelerations,
+every coefficient factored, angle sums restored (``cos(a)cos(b) + sin(a)sin(b)`` → ``cos(a - b)``)
+and ``1 - cos²`` written as ``sin²``.  Trees become sympy expressions (for people) or source text
+(:mod:`engdyn.algebra.codegen`).
+
+Nodes are tuples: ``("number", Fraction)``, ``("generator", key)``, ``("sum", nodes)``,
+``("product", nodes)``, ``("power", node, n)``, ``("cos", angle)`` and ``("sin", angle)`` with an
+angle given as ``((base, factor), ...)``, ``("call", expr, arguments)``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from itertools import product as cartesian
+from typing import Any
+
+import sympy as sm
+
+from engdyn.algebra.ring import Element, Ring
+
+__all__ = ["ONE", "ZERO", "make_product", "make_sum", "to_sympy", "tree"]
+
+Node = tuple[Any, ...]
+ZERO: Node = ("number", Fraction(0))
+ONE: Node = ("number", Fraction(1))
+
+#: Polynomials with more terms than this are not factored: it would take longer than it helps.
+FACTOR_LIMIT = 150
+
+
+def tree(element: Element) -> Node:
+    """The readable tree of a ring element."""
+    above = _grouped(element.ring, element.numerator)
+    if element.denominator is None:
+        return above
+    return make_product([above, make_power(_factored(element.ring, element.denominator), -1)])
+
+
+def make_sum(nodes: Iterable[Node]) -> Node:
+    """Sum of nodes, zeros dropped."""
+    kept = [node for node in nodes if node != ZERO]
+    if not kept:
+        return ZERO
+    return kept[0] if len(kept) == 1 else ("sum", tuple(kept))
+
+
+def make_product(nodes: Iterable[Node]) -> Node:
+    """Product of nodes, numbers collected in front."""
+    number, kept = Fraction(1), []
+    for node in nodes:
+        parts = node[1] if node[0] == "product" else (node,)
+        for part in parts:
+            if part[0] == "number":
+                number *= part[1]
+            else:
+                kept.append(part)
+    if number == 0:
+        return ZERO
+    if number != 1 or not kept:
+        kept.insert(0, ("number", number))
+    return kept[0] if len(kept) == 1 else ("product", tuple(kept))
+
+
+def make_power(node: Node, n: int) -> Node:
+    """Integer power of a node."""
+    if n == 1:
+        return node
+    if node[0] == "number":
+        return ("number", node[1] ** n)
+    if node[0] == "power":
+        return ("power", node[1], node[2] * n)
+    return ("power", node, n)
+
+
+def _grouped(ring: Ring, p: Any) -> Node:
+    """A polynomial grouped by its monomials in time derivatives, each coefficient factored."""
+    rates = {i for i, key in enumerate(ring.keys) if key[0] == "function" and key[2] > 0}
+    groups: dict[tuple[int, ...], dict] = {}
+    for exponents, coefficient in ring.polynomials.terms(p):
+        motion = tuple(e if i in rates else 0 for i, e in enumerate(exponents))
+        rest = tuple(0 if i in rates else e for i, e in enumerate(exponents))
+        groups.setdefault(motion, {})[rest] = coefficient
+    parts = []
+    for motion, terms in groups.items():
+        factor = _factored(ring, ring.polynomials.from_terms(terms))
+        parts.append(make_product([factor, _monomial(ring, motion)]))
+    return make_sum(parts)
+
+
+def _monomial(ring: Ring, exponents: tuple[int, ...]) -> Node:
+    """A product of generators; parameters first, sines and cosines last."""
+    return make_product(make_power(generator_node(ring, i), e) for i, e in reversed(list(enumerate(exponents))) if e)
+
+
+def generator_node(ring: Ring, index: int) -> Node:
+    """The node of one generator: what it stands for, spelled out."""
+    key = ring.keys[index]
+    if key[0] in ("sine", "cosine"):
+        return (key[0][:3], ((key[1], Fraction(1, key[2])),))
+    definition = ring.definitions.get(index)
+    if definition is None:
+        return ("generator", key)
+    if definition.kind == "root":
+        return ("call", sm.sqrt, (tree(definition.arguments[0]),))
+    if definition.kind == "magnitude":
+        return ("call", sm.Abs, (tree(definition.arguments[0]),))
+    if not definition.arguments:
+        return ("generator", key)
+    return ("call", key[1].func, tuple(tree(a) for a in definition.arguments))
+
+
+def _factored(ring: Ring, p: Any) -> Node:
+    """A polynomial as a product of readable factors."""
+    ps = ring.polynomials
+    if len(p) > FACTOR_LIMIT:
+        return _sum_of_terms(ring, p)
+    content, factors = ps.factor(p)
+    nodes: list[Node] = [("number", content)]
+    counts = [[f, m] for f, m in factors]
+    nodes += _sine_squares(ring, counts)
+    for factor, multiplicity in sorted(counts, key=lambda fm: len(fm[0])):
+        if multiplicity:
+            nodes.append(make_power(_sum_of_terms(ring, factor), multiplicity))
+    return make_product(nodes)
+
+
+def _sine_squares(ring: Ring, counts: list[list]) -> list[Node]:
+    """Replace (cos − 1)(cos + 1) among the factors by −sin²; lowers the multiplicities."""
+    ps, nodes = ring.polynomials, []
+    for i, key in enumerate(ring.keys):
+        if key[0] != "cosine":
+            continue
+        minus, plus = ps.gens[i] - ps.one, ps.gens[i] + ps.one
+        pair = [next((fm for fm in counts if fm[0] == wanted), None) for wanted in (minus, plus)]
+        if all(pair):
+            n = min(pair[0][1], pair[1][1])
+            pair[0][1] -= n
+            pair[1][1] -= n
+            sine = ("sin", ((key[1], Fraction(1, key[2])),))
+            nodes += [("number", Fraction((-1) ** n)), make_power(sine, 2 * n)]
+    return nodes
+
+
+def _sum_of_terms(ring: Ring, p: Any) -> Node:
+    """An unfactored polynomial: terms that differ only in sines and cosines are taken together."""
+    angular = [i for i, key in enumerate(ring.keys) if key[0] in ("sine", "cosine")]
+    groups: dict[tuple[int, ...], dict[tuple[int, ...], Fraction]] = {}
+    for exponents, coefficient in ring.polynomials.terms(p):
+        rest = list(exponents)
+        for i in angular:
+            rest[i] = 0
+        trig = tuple(exponents[i] for i in angular)
+        groups.setdefault(tuple(rest), {})[trig] = coefficient
+    parts = []
+    for rest, terms in groups.items():
+        monomial = _monomial(ring, rest)
+        parts += [make_product([coefficient, monomial, trig]) for coefficient, trig in _trig(ring, angular, terms)]
+    return make_sum(parts)
+
+
+def _trig(ring: Ring, angular: list[int], terms: dict) -> list[tuple[Node, Node]]:
+    """A trigonometric polynomial as (coefficient, product) pairs, in the shorter of two forms."""
+    plain = _plain_trig(ring, angular, terms)
+    if len(terms) < 2:
+        return plain
+    summed = _angle_sums(ring, angular, terms)
+    return summed if len(summed) < len(plain) else plain
+
+
+def _plain_trig(ring: Ring, angular: list[int], terms: dict) -> list[tuple[Node, Node]]:
+    """Products of sines and cosines, a·(1 − cos²) joined to a·sin²."""
+    terms, found = dict(terms), []
+    for position, i in enumerate(angular):
+        if ring.keys[i][0] != "cosine":
+            continue
+        for trig in list(terms):
+            lower = (*trig[:position], trig[position] - 2, *trig[position + 1 :])
+            if trig[position] >= 2 and terms.get(lower) == -terms.get(trig, Fraction(0)) != 0:
+                coefficient = terms.pop(lower)
+                terms.pop(trig)
+                sine = make_power(("sin", ((ring.keys[i][1], Fraction(1, ring.keys[i][2])),)), 2)
+                found.append((("number", coefficient), make_product([_trig_product(ring, angular, lower), sine])))
+    found += [(("number", c), _trig_product(ring, angular, trig)) for trig, c in terms.items()]
+    return found
+
+
+def _trig_product(ring: Ring, angular: list[int], exponents: tuple[int, ...]) -> Node:
+    pairs = zip(angular, exponents, strict=True)
+    return make_product(make_power(generator_node(ring, i), e) for i, e in pairs if e)
+
+
+def _angle_sums(ring: Ring, angular: list[int], terms: dict) -> list[tuple[Node, Node]]:
+    """The same polynomial as a sum of cosines and sines of angle sums (product-to-sum formulas)."""
+    angles = sorted({ring.keys[i][1:] for i in angular}, key=str)
+    waves: dict[tuple[int, ...], complex | Any] = {}
+    for exponents, coefficient in terms.items():
+        for multiples, (re, im) in _exponentials(ring, angular, exponents, angles).items():
+            old = waves.get(multiples, (Fraction(0), Fraction(0)))
+            waves[multiples] = (old[0] + coefficient * re, old[1] + coefficient * im)
+    found = []
+    for multiples, (re, im) in waves.items():
+        if multiples < tuple(-k for k in multiples) or (re == 0 and im == 0):
+            continue
+        angle = tuple((base, Fraction(k, d)) for (base, d), k in zip(angles, multiples, strict=True) if k)
+        if not angle:
+            found.append((("number", re), ONE))
+            continue
+        found += [(("number", 2 * re), ("cos", angle))] if re else []
+        found += [(("number", -2 * im), ("sin", angle))] if im else []
+    return found
+
+
+def _exponentials(ring: Ring, angular: list[int], exponents: tuple[int, ...], angles: list) -> dict:
+    """cos = (z + 1/z)/2 and sin = (z − 1/z)/(2i): multiples of each angle → complex coefficient."""
+    waves = {(0,) * len(angles): (Fraction(1), Fraction(0))}
+    for i, e in zip(angular, exponents, strict=True):
+        at = angles.index(ring.keys[i][1:])
+        half = Fraction(1, 2)
+        if ring.keys[i][0] == "cosine":
+            step = {1: (half, Fraction(0)), -1: (half, Fraction(0))}
+        else:
+            step = {1: (Fraction(0), -half), -1: (Fraction(0), half)}
+        for _ in range(e):
+            out: dict = {}
+            for (k, (a, b)), (d, (c, s)) in cartesian(waves.items(), step.items()):
+                key = (*k[:at], k[at] + d, *k[at + 1 :])
+                old = out.get(key, (Fraction(0), Fraction(0)))
+                out[key] = (old[0] + a * c - b * s, old[1] + a * s + b * c)
+            waves = out
+    return waves
+
+
+def to_sympy(node: Node) -> sm.Expr:
+    """The sympy expression of a tree."""
+    kind = node[0]
+    if kind == "number":
+        return sm.Rational(node[1].numerator, node[1].denominator)
+    if kind == "generator":
+        return key_to_sympy(node[1])
+    if kind == "sum":
+        return sm.Add(*(to_sympy(part) for part in node[1]))
+    if kind == "product":
+        return sm.Mul(*(to_sympy(part) for part in node[1]))
+    if kind == "power":
+        return to_sympy(node[1]) ** node[2]
+    if kind in ("cos", "sin"):
+        angle = sm.Add(*(sm.Rational(f.numerator, f.denominator) * base for base, f in node[1]))
+        return sm.cos(angle) if kind == "cos" else sm.sin(angle)
+    return node[1](*(to_sympy(part) for part in node[2]))
+
+
+def key_to_sympy(key: tuple[Any, ...]) -> sm.Expr:
+    """The sympy expression that an independent generator stands for."""
+    if key[0] != "function":
+        return key[1]
+    _, function, order = key
+    return function if order == 0 else sm.Derivative(function, (function.args[0], order))

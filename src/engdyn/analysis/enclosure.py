@@ -1,0 +1,420 @@
+"""All roots of a system of equations in a box, each one enclosed and proved.
+
+Branch and bound: a box is thrown away when the equations, evaluated on all of it in ball arithmetic, exclude
+zero; otherwise an interval Newton step shrinks it around the roots it may hold, proves that it holds exactly
+one, or leaves it to be cut in two. What can be neither proved nor thrown away (a multiple root, a point
+where the equations are not defined, a budget used up) is reported as undecided, never guessed.
+
+Course section 4.2. Sources: A. Neumaier, *Interval Methods for Systems of Equations*, Cambridge University
+Press (1990), chapter 5 (the Hansen-Sengupta operator: what it excludes and what it proves); R. E. Moore,
+R. B. Kearfott and M. J. Cloud, *Introduction to Interval Analysis*, SIAM (2009), chapter 8; S. M. Rump,
+"Verification methods", Acta Numerica 19 (2010) (inflation).
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from engdyn.algebra.balls import ball, contains_zero, is_finite, lower, midpoint, upper
+from engdyn.errors import EngdynError
+
+__all__ = ["Certificate", "enclose_roots"]
+
+Box = tuple[tuple[float, float], ...]
+
+EDGE_TOLERANCE = 1e-13  # a root this close to the region's edge, relative to its bounds, is on the edge
+CUT = 0.4863  # where a box is cut: off the middle, away from the round numbers where roots like to lie
+
+
+@dataclass(frozen=True, repr=False)
+class Certificate:
+    """What a search proved about the roots of n equations in a box; a box is n pairs (lower, upper).
+
+    Attributes
+    ----------
+    region : tuple of (float, float)
+        The region asked for.
+    searched : tuple of (float, float)
+        The region searched: a trifle larger, so that roots on the edge are found.
+    accepted : tuple of boxes
+        Each is proved to hold exactly one root. A root on the seam of a periodic unknown lies in one box at
+        either end, so there may be more accepted boxes than roots.
+    rejected : tuple of boxes
+        Each is proved to hold no root.
+    undecided : tuple of boxes
+        About these nothing is claimed; neighboring ones are merged.
+    roots : tuple of boxes
+        A tight enclosure of every root in an accepted box, one per distinct root, sorted; periodic unknowns
+        are brought into (lower, upper]. A root within rounding of the edge is centered on the edge.
+    examined : int
+        Number of boxes looked at.
+    """
+
+    region: Box
+    searched: Box
+    accepted: tuple[Box, ...]
+    rejected: tuple[Box, ...] = field(default=())
+    undecided: tuple[Box, ...] = field(default=())
+    roots: tuple[Box, ...] = field(default=())
+    examined: int = 0
+
+    @property
+    def points(self) -> np.ndarray:
+        """Midpoints of the root enclosures, shape (number of roots, n)."""
+        return np.array([[_middle(pair) for pair in root] for root in self.roots]).reshape(-1, len(self.region))
+
+    @cached_property
+    def certified(self) -> bool:
+        """Whether `roots` are provably all roots: nothing is undecided and the boxes cover the region."""
+        return not self.undecided and self.covers()
+
+    def covers(self) -> bool:
+        """Return whether accepted, rejected and undecided boxes together leave no gap in `searched`."""
+        return _is_covered(self.searched, (*self.accepted, *self.rejected, *self.undecided))
+
+    def __repr__(self) -> str:
+        state = "certified" if self.certified else f"not certified, {len(self.undecided)} undecided boxes"
+        return f"Certificate({len(self.roots)} roots, {state}, {self.examined} boxes examined)"
+
+
+def enclose_roots(
+    function: Callable[[list[Any]], Sequence[Any]],
+    jacobian: Callable[[list[Any]], Sequence[Sequence[Any]]],
+    region: Sequence[tuple[float, float]],
+    *,
+    periodic: Sequence[int] = (),
+    max_boxes: int = 20000,
+    min_width: float = 1e-9,
+) -> Certificate:
+    """Enclose every root of n equations in n unknowns in a region.
+
+    Parameters
+    ----------
+    function : callable
+        Takes a list of n balls (`engdyn.algebra.balls`), returns n balls (or exact numbers) that enclose the
+        equations' left sides on them; a non-finite ball where an equation is not defined and continuous.
+    jacobian : callable
+        Takes a list of n balls, returns n rows of n balls (or exact numbers): the derivatives.
+    region : sequence of (lower, upper), n pairs of finite floats
+        The box to search, both ends included.
+    periodic : sequence of int
+        Unknowns whose range is one whole period of the equations: the lower end is the upper end again.
+    max_boxes : int
+        How many boxes to look at; those still waiting then are undecided.
+    min_width : float
+        A box this narrow in every unknown, as a fraction of the region, is not cut again but undecided.
+
+    Returns
+    -------
+    Certificate
+        All roots with the proof; ``certified`` says whether it is complete.
+
+    Raises
+    ------
+    EngdynError
+        When the region, a limit or the shape of what the callables return makes no sense.
+    """
+    region = _checked_region(region, periodic, max_boxes, min_width)
+    margins = [EDGE_TOLERANCE * max(high - low, abs(low), abs(high)) for low, high in region]
+    searched = tuple((low - edge, high + edge) for (low, high), edge in zip(region, margins, strict=True))
+    search = _Search(function, jacobian, searched, min_width)
+    search.run(max_boxes)
+    accepted = tuple(box for box, _ in search.accepted)
+    rest = search.undecided
+    for box in accepted:  # so that no undecided box hides what an accepted one covers
+        rest = [piece for other in rest for piece in _subtract(other, box)]
+    undecided = _merge(np.array(rest).reshape(-1, len(region), 2), np.array(accepted).reshape(-1, len(region), 2))
+    return Certificate(
+        region=region,
+        searched=searched,
+        accepted=accepted,
+        rejected=tuple(search.rejected),
+        undecided=tuple(undecided),
+        roots=_distinct_roots(search.accepted, region, margins, periodic),
+        examined=search.examined,
+    )
+
+
+def _checked_region(region: Any, periodic: Sequence[int], max_boxes: int, min_width: float) -> Box:
+    """Return the region as a tuple of float pairs; raise `EngdynError` when an argument makes no sense."""
+    try:
+        box = tuple((float(low), float(high)) for low, high in region)
+    except (TypeError, ValueError):
+        raise EngdynError(f"region={region!r} is no box: give one pair (lower, upper) per unknown.") from None
+    for k, (low, high) in enumerate(box):
+        if not (-math.inf < low < high < math.inf):
+            raise EngdynError(f"region[{k}]=({low}, {high}) has no extent: give finite bounds, lower < upper.")
+    if not box or any(k not in range(len(box)) for k in periodic):
+        raise EngdynError(f"periodic={periodic!r} with {len(box)} unknowns: give indices from 0 to one below that.")
+    if max_boxes < 1 or not 0.0 < min_width < 1.0:
+        raise EngdynError(f"{max_boxes=}, {min_width=}: give at least one box and a width between 0 and 1.")
+    return box
+
+
+class _Step(NamedTuple):
+    """Outcome of one Newton step: all roots of the box lie in the image."""
+
+    image: Box
+    proved: bool  # the box holds exactly one root, and the image holds it
+    regular: bool  # every pivot of the preconditioned Jacobian excludes zero
+    effect: list[float] | None  # how much each unknown moves the equations across the box
+
+
+class _Search:
+    """Branch and bound over boxes: the state of one search."""
+
+    def __init__(self, function: Callable, jacobian: Callable, searched: Box, min_width: float) -> None:
+        self.function, self.jacobian, self.searched = function, jacobian, searched
+        self.extent = [high - low for low, high in searched]
+        self.smallest = [min_width * extent for extent in self.extent]
+        self.accepted: list[tuple[Box, Box]] = []  # (box with exactly one root, tight enclosure of the root)
+        self.rejected: list[Box] = []
+        self.undecided: list[Box] = []
+        self.examined = 0
+
+    def run(self, max_boxes: int) -> None:
+        """Examine boxes breadth first, so that a spent budget leaves small boxes everywhere."""
+        self._check_shapes()
+        queue = deque([self.searched])
+        while queue and self.examined < max_boxes:
+            self.examined += 1
+            queue.extend(self._examine(queue.popleft()))
+        self.undecided.extend(queue)
+
+    def _check_shapes(self) -> None:
+        variables = [ball(low, high) for low, high in self.searched]
+        n, values, rows = len(variables), self.function(variables), self.jacobian(variables)
+        if len(values) != n or len(rows) != n or any(len(row) != n for row in rows):
+            raise EngdynError(
+                f"{n} unknowns, but the function returns {len(values)} values and the Jacobian {len(rows)} rows of "
+                f"lengths {sorted({len(row) for row in rows})}: give as many equations as unknowns."
+            )
+
+    def _examine(self, box: Box) -> Sequence[Box]:
+        """Decide a box, or return the boxes to examine in its place."""
+        inner = box
+        while True:
+            step = self._newton(inner)
+            if step is None:
+                self.rejected.append(box)
+                return ()
+            if step.proved:  # what the earlier steps cut off holds no root: the whole box holds exactly one
+                self._accept(box, box, step.image)
+                return ()
+            if step.regular and self._accept_inflated(box, inner, step.image):
+                return ()
+            shrunk = math.prod(_width(a) / _width(b) for a, b in zip(step.image, inner, strict=True) if _width(b))
+            inner = step.image
+            if shrunk > 0.3:
+                break
+        self.rejected.extend(_subtract(box, inner))
+        return self._cut(inner, step.effect)
+
+    def _cut(self, box: Box, effect: list[float] | None) -> Sequence[Box]:
+        """Return the two parts of a box, cut across the unknown that moves the equations most."""
+        wide = [k for k, pair in enumerate(box) if _width(pair) > self.smallest[k]]
+        if effect is None:
+            effect = [_width(pair) / extent for pair, extent in zip(box, self.extent, strict=True)]
+        wide = [k for k in wide if effect[k] > 0.0]  # cutting an unknown without effect tells nothing
+        if wide:
+            k = max(wide, key=effect.__getitem__)
+            low, high = box[k]
+            cut = low + CUT * (high - low)
+            if low < cut < high:
+                return (*box[:k], (low, cut), *box[k + 1 :]), (*box[:k], (cut, high), *box[k + 1 :])
+        self.undecided.append(box)
+        return ()
+
+    def _newton(self, box: Box) -> _Step | None:
+        """Return one Newton step on a box, None when the box is proved to hold no root."""
+        variables = [ball(low, high) for low, high in box]
+        if not all(contains_zero(value) for value in map(ball, self.function(variables))):
+            return None
+        slopes = [[ball(entry) for entry in row] for row in self.jacobian(variables)]
+        if not all(is_finite(entry) for row in slopes for entry in row):
+            return _Step(box, proved=False, regular=False, effect=None)
+        center = [_middle(pair) for pair in box]
+        values = [ball(value) for value in self.function([ball(c) for c in center])]
+        spread = [x - c for x, c in zip(variables, center, strict=True)]
+        for value, row in zip(values, slopes, strict=True):  # mean value form
+            for slope, d in zip(row, spread, strict=True):
+                value = value + slope * d
+            if not contains_zero(value):
+                return None
+        effect = _effects(slopes, box)
+        inverse = _inverse([[midpoint(entry) for entry in row] for row in slopes])
+        if inverse is None:
+            return _Step(box, proved=False, regular=False, effect=effect)
+        return _contract(box, center, spread, values, slopes, inverse, effect)
+
+    def _accept_inflated(self, box: Box, inner: Box, image: Box) -> bool:
+        """Try to prove a root on a cut or an edge, which no box it borders can hold in its interior.
+
+        The proof is tried on a box grown around the image, once a step has pinned the root down.
+        """
+        relative = [_width(pair) / extent for pair, extent in zip(image, self.extent, strict=True)]
+        pinned = (r < 1e-6 or _width(a) < 0.5 * _width(b) for r, a, b in zip(relative, image, inner, strict=True))
+        if not all(pinned):
+            return False
+        floor = 0.01 * max(relative) + 1e-10
+        pads = [0.1 * _width(pair) + floor * extent for pair, extent in zip(image, self.extent, strict=True)]
+        grown = tuple((low - pad, high + pad) for (low, high), pad in zip(image, pads, strict=True))
+        step = self._newton(grown)
+        if step is None or not step.proved:
+            return False
+        self._accept(box, grown, step.image)
+        return True
+
+    def _accept(self, box: Box, single: Box, root: Box) -> None:
+        """Book a box all of whose roots lie in `single`, which holds exactly one root, enclosed by `root`."""
+        for _ in range(20):
+            step = self._newton(root)
+            if step is None or step.image == root:
+                break
+            root = step.image
+        if not _meet(root, box):  # the neighbor's root
+            self.rejected.append(box)
+            return
+        for known, known_root in self.accepted:
+            if _contains(known, root) or _contains(single, known_root):  # one root seen from two boxes
+                self.rejected.extend(_subtract(box, known))
+                return
+        self.accepted.append((single, root))
+        self.rejected.extend(_subtract(box, single))
+
+
+def _effects(slopes: list[list[Any]], box: Box) -> list[float] | None:
+    """Return each unknown's share in the variation of the equations, summed over the equations."""
+    widths = [_width(pair) for pair in box]
+    effect = [0.0] * len(box)
+    for row in slopes:
+        moves = [max(-lower(slope), upper(slope)) * w for slope, w in zip(row, widths, strict=True)]
+        total = sum(moves)
+        if not math.isfinite(total):
+            return None
+        if total > 0.0:
+            effect = [share + move / total for share, move in zip(effect, moves, strict=True)]
+    return effect
+
+
+def _inverse(matrix: list[list[float]]) -> list[list[float]] | None:
+    """Return the inverse in plain floats (it need not be accurate), None where there is none."""
+    try:
+        inverse = np.linalg.inv(matrix)
+    except np.linalg.LinAlgError:
+        return None
+    return inverse.tolist() if np.isfinite(inverse).all() else None
+
+
+def _contract(
+    box: Box,
+    center: list[float],
+    spread: list[Any],
+    values: list[Any],
+    slopes: list[list[Any]],
+    inverse: list[list[float]],
+    effect: list[float] | None,
+) -> _Step | None:
+    """Return the Hansen-Sengupta step: Gauss-Seidel on the preconditioned linear interval equations."""
+    n, image, proved, regular = len(box), list(box), True, True
+    for i, weights in enumerate(inverse):
+        row = [_dot(weights, [slopes[k][j] for k in range(n)]) for j in range(n)]
+        if contains_zero(row[i]):
+            proved = regular = False
+            continue
+        total = _dot(weights, values)
+        for j in range(n):
+            if j != i:
+                total = total + row[j] * spread[j]
+        solution = center[i] - total / row[i]
+        low, high = lower(solution), upper(solution)
+        old_low, old_high = box[i]
+        if low > old_high or high < old_low:
+            return None
+        proved = proved and old_low < low and high < old_high
+        if low > old_low or high < old_high:
+            image[i] = (max(low, old_low), min(high, old_high))
+            spread[i] = ball(*image[i]) - center[i]
+    return _Step(tuple(image), proved, regular, effect)
+
+
+def _dot(weights: list[float], balls: list[Any]) -> Any:
+    total = weights[0] * balls[0]
+    for weight, value in zip(weights[1:], balls[1:], strict=True):
+        total = total + weight * value
+    return total
+
+
+def _distinct_roots(
+    accepted: list[tuple[Box, Box]], region: Box, margins: list[float], periodic: Sequence[int]
+) -> tuple[Box, ...]:
+    """Return one enclosure per root: periodic unknowns brought into (lower, upper], edges hit exactly."""
+    found: list[tuple[Box, Box]] = []
+    for box, root in accepted:
+        for k in periodic:
+            box, root = _wrap(box, root, k, region[k], margins[k])
+        if not any(_contains(known, root) or _contains(box, known_root) for known, known_root in found):
+            found.append((box, root))
+    snapped = [tuple(map(_snap, root, region)) for _, root in found]
+    return tuple(sorted(snapped, key=lambda root: [_middle(pair) for pair in root]))
+
+
+def _wrap(box: Box, root: Box, k: int, bounds: tuple[float, float], margin: float) -> tuple[Box, Box]:
+    """Move a root and its box by whole periods so that the root lies in (lower, upper], up to the margin."""
+    low, high = bounds
+    turns = math.ceil((_middle(root[k]) - high - margin) / (high - low))
+    if turns == 0:
+        return box, root
+    shift = turns * (high - low)
+    pad = 4.0 * math.ulp(max(abs(low), abs(high), abs(shift)))  # the period itself is rounded, too
+    moved = (root[k][0] - shift - pad, root[k][1] - shift + pad)
+    moved_box = (box[k][0] - shift, box[k][1] - shift)
+    return (*box[:k], moved_box, *box[k + 1 :]), (*root[:k], moved, *root[k + 1 :])
+
+
+def _snap(root: tuple[float, float], bounds: tuple[float, float]) -> tuple[float, float]:
+    """Return the enclosure of one unknown, widened to be centered on an edge its middle lies beyond."""
+    edge = min(max(_middle(root), bounds[0]), bounds[1])
+    if edge == _middle(root):
+        return root
+    unit = 2.0 * math.ulp(max(abs(edge), abs(root[0]), abs(root[1])))
+    reach = unit * math.ceil(max(edge - root[0], root[1] - edge) / unit)
+    return edge - reach, edge + reach
+
+
+def _width(pair: tuple[float, float]) -> float:
+    return pair[1] - pair[0]
+
+
+def _middle(pair: tuple[float, float]) -> float:
+    return 0.5 * pair[0] + 0.5 * pair[1]
+
+
+def _meet(a: Box, b: Box) -> bool:
+    return all(low <= other_high and other_low <= high for (low, high), (other_low, other_high) in zip(a, b, strict=True))
+
+
+def _contains(large: Box, small: Box) -> bool:
+    return all(a <= c and d <= b for (a, b), (c, d) in zip(large, small, strict=True))
+
+
+def _subtract(box: Box, other: Box) -> list[Box]:
+    """Return boxes that cover what is left of a box when another one is cut out of it."""
+    if any(high <= low_cut or high_cut <= low for (low, high), (low_cut, high_cut) in zip(box, other, strict=True)):
+        return [box]
+    pieces, rest = [], list(box)
+    for k, (low_cut, high_cut) in enumerate(other):
+        low, high = rest[k]
+        if low < low_cut:
+            pieces.append((*rest[:k], (low, low_cut), *rest[k + 1 :]))
+        if high_cut < high:
+            pieces.append((*rest[:k], (high_cut, high), *rest[k + 1 :]))
+        rest[k] = (max(low, low_cut), min(high, high_cut))
+    return pieces

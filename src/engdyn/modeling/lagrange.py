@@ -1,0 +1,217 @@
+"""Lagrange's equations: d/dt(∂T/∂q̇) − ∂T/∂q + ∂V/∂q + ∂D/∂q̇ = Q.
+
+Course chapter 3; J. L. Lagrange, *Mécanique analytique* (1788); Rayleigh's function after
+J. W. Strutt, *Proc. London Math. Soc.* s1-4 (1873).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import sympy as sm
+from sympy.physics.vector import dynamicsymbols
+
+from engdyn.algebra.readable import to_sympy, tree
+from engdyn.algebra.ring import Derivation, Element
+from engdyn.errors import EngdynError
+from engdyn.modeling.equations import EquationsOfMotion
+from engdyn.modeling.state import State, check_coordinates, dependent_rates
+
+__all__ = ["lagrange"]
+
+
+def lagrange(
+    kinetic: sm.Expr,
+    potential: sm.Expr,
+    coordinates: Sequence[sm.Expr],
+    dissipation: sm.Expr = 0,
+    forces: Mapping[sm.Expr, sm.Expr] | None = None,
+    constraints: Sequence[sm.Expr] = (),
+    *,
+    speeds: Sequence[sm.Expr] | None = None,
+) -> EquationsOfMotion:
+    """Equations of motion from energies.
+
+    Parameters
+    ----------
+    kinetic : sympy.Expr
+        T(q, q̇, t) with absolute velocities [J].
+    potential : sympy.Expr
+        V(q, t) [J].
+    coordinates : sequence of dynamicsymbols, length n
+    dissipation : sympy.Expr
+        Rayleigh's function D(q, q̇): half the dissipated power [W].
+    forces : mapping of coordinate to expression, optional
+        Generalized forces Q of everything that is neither in V nor in D [N, N m].
+    constraints : sequence of expressions
+        Nonholonomic velocity constraints = 0, linear in the rates. They are *not* put into T;
+        the equations are projected on the motions that they allow.
+    speeds : sequence of rates, optional
+        Which rates to keep as independent speeds under constraints; the first that can be where
+        not given.
+
+    Returns
+    -------
+    EquationsOfMotion
+
+    Raises
+    ------
+    EngdynError
+        Unknown coordinates in `forces`, a kinetic energy without inertia for some coordinate, a
+        potential with rates in it, a force that the potential energy holds already (weight counted
+        twice).
+
+    Notes
+    -----
+    Course sections 3.2 to 3.5 and 3.8.
+
+    Examples
+    --------
+    >>> import engdyn as ed, sympy as sm
+    >>> from sympy.physics.mechanics import dynamicsymbols
+    >>> theta = dynamicsymbols("theta")
+    >>> m, l, g = sm.symbols("m l g", positive=True)
+    >>> pendulum = ed.lagrange(m * l**2 * theta.diff() ** 2 / 2, -m * g * l * sm.cos(theta), [theta])
+    >>> pendulum.forcing[0]
+    -g*l*m*sin(theta(t))
+    """
+    coordinates = check_coordinates(coordinates)
+    kinetic, potential, dissipation = (
+        _energy(e, name)
+        for e, name in ((kinetic, "kinetic"), (potential, "potential"), (dissipation, "dissipation"))
+    )
+    forces = _forces(forces, coordinates)
+    constraints = tuple(constraints)
+    rates: dict[sm.Expr, sm.Expr] = {}
+    independent = None
+    if constraints:
+        independent, rates = dependent_rates(coordinates, constraints, speeds)
+    elif speeds is not None and tuple(speeds) != tuple(q.diff(dynamicsymbols._t) for q in coordinates):
+        raise EngdynError("without constraints the speeds of Lagrange's equations are the rates of the coordinates")
+    terms = [kinetic, potential, dissipation, *forces.values()]
+    state = State(coordinates, terms, independent, rates, substitute=False, moving=[kinetic])
+    mass, force = _equations(state, kinetic, potential, dissipation, forces)
+    if constraints:
+        mass, force = _projected(state, mass, force)
+    return EquationsOfMotion.from_elements(state, mass, force, "Lagrange")
+
+
+def _energy(expr: Any, name: str) -> sm.Expr:
+    if isinstance(expr, int | float):
+        return sm.sympify(expr)
+    if not isinstance(expr, sm.Expr):
+        raise EngdynError(f"the {name} energy is {expr!r}: give a sympy expression")
+    return expr
+
+
+def _forces(forces: Mapping[sm.Expr, sm.Expr] | None, coordinates: Sequence[sm.Expr]) -> dict[sm.Expr, sm.Expr]:
+    given = dict(forces or {})
+    unknown = [q for q in given if q not in coordinates]
+    if unknown:
+        raise EngdynError(f"forces names {unknown}, which are not among the coordinates {list(coordinates)}")
+    return {q: sm.sympify(given.get(q, 0)) for q in coordinates}
+
+
+def _equations(
+    state: State, kinetic: sm.Expr, potential: sm.Expr, dissipation: sm.Expr, forces: Mapping[sm.Expr, sm.Expr]
+) -> tuple[list[list[Element]], list[Element]]:
+    """M and f of Lagrange's equations in all n coordinates."""
+    ring = state.ring
+    T, V, D = state.convert(kinetic), state.convert(potential), state.convert(dissipation)
+    by_q = [ring.partial(("function", q, 0)) for q in state.coordinates]
+    by_rate = [ring.partial(("function", q, 1)) for q in state.coordinates]
+    if any(not partial(V).is_zero() for partial in by_rate):
+        raise EngdynError("the potential energy contains a rate: put velocity-dependent effects into D or the forces")
+    accelerations = {ring.index["function", q, 2] for q in state.coordinates}
+    velocity_part = Derivation(
+        ring, {i: e for i in range(len(ring.keys)) if (e := _plain_rate(state, i, accelerations)) is not None}
+    )
+    mass, force = [], []
+    for q, d_q, d_rate in zip(state.coordinates, by_q, by_rate, strict=True):
+        momentum, attraction = d_rate(T), -d_q(V)
+        Q = state.convert(forces[q])
+        _check_counted_once(q, Q, attraction)
+        mass.append([partial(momentum) for partial in by_rate])
+        force.append(d_q(T) + attraction - d_rate(D) + Q - velocity_part(momentum))
+    return mass, force
+
+
+def _plain_rate(state: State, index: int, accelerations: set[int]) -> Element | None:
+    """Time derivative of an independent generator, the accelerations left out (they go into M)."""
+    if index in state.ring.definitions:
+        return None
+    rate = state.time_derivative.of_generator(index)
+    return None if rate is None or rate.generators() & accelerations else rate
+
+
+def _check_counted_once(q: sm.Expr, Q: Element, attraction: Element) -> None:
+    """Refuse a generalized force that repeats terms of −∂V/∂q: the weight, most often."""
+    ps = Q.ring.polynomials
+    if Q.denominator is not None or attraction.denominator is not None:
+        return
+    known = dict(ps.terms(attraction.numerator))
+    twice = {e: c for e, c in ps.terms(Q.numerator) if known.get(e) == c}
+    if twice:
+        term = to_sympy(tree(Element(Q.ring, ps.from_terms(twice))))
+        weight = any(s.name == "g" for s in term.free_symbols)
+        raise EngdynError(
+            f"the generalized force of {q} contains {term}, which the potential energy gives already: "
+            f"{'gravity' if weight else 'this force'} is counted twice; keep it in V or in forces, not in both"
+        )
+
+
+def _projected(state: State, mass: list[list[Element]], force: list[Element]) -> tuple[list[list[Element]], list[Element]]:
+    """Project the n equations on the m independent speeds: Gᵀ M G u̇ = Gᵀ (f − M (q̈ without u̇))."""
+    ring = state.ring
+    rates = state.rate_elements()
+    dependent = {
+        ring.index["function", q, 1]: state.convert(rate)
+        for q, rate in state.rates.items()
+    }
+    speeds, accelerations = state.speed_partials(), state.acceleration_partials()
+    G = [[partial(rate) for partial in speeds] for rate in rates]
+    curvature = []
+    for rate in rates:
+        bare = state.time_derivative(rate)
+        for partial, key in zip(accelerations, state.acceleration_keys, strict=True):
+            bare = bare - partial(bare) * ring.generator(key)
+        curvature.append(substitute(bare, dependent))
+    n, m = len(rates), len(speeds)
+    mass = [[substitute(entry, dependent) for entry in row] for row in mass]
+    force = [substitute(entry, dependent) for entry in force]
+    rest = [force[i] - total(mass[i][j] * curvature[j] for j in range(n)) for i in range(n)]
+    half = [[total(mass[i][k] * G[k][j] for k in range(n)) for j in range(m)] for i in range(n)]
+    return (
+        [[total(G[k][i] * half[k][j] for k in range(n)) for j in range(m)] for i in range(m)],
+        [total(G[k][i] * rest[k] for k in range(n)) for i in range(m)],
+    )
+
+
+def total(elements: Any) -> Element:
+    """Sum of one or more elements."""
+    first, *rest = elements
+    for element in rest:
+        first = first + element
+    return first
+
+
+def substitute(element: Element, images: Mapping[int, Element]) -> Element:
+    """Replace independent generators by elements of the same ring (angles do not contain them)."""
+    if not element.generators() & set(images):
+        return element
+    ring, ps = element.ring, element.ring.polynomials
+
+    def polynomial(p: Any) -> Element:
+        result = ring.zero
+        for exponents, coefficient in ps.terms(p):
+            kept = tuple(0 if i in images else e for i, e in enumerate(exponents))
+            term = Element(ring, ps.from_terms({kept: coefficient}))
+            for i, image in images.items():
+                if exponents[i]:
+                    term = term * image ** exponents[i]
+            result = result + term
+        return result
+
+    above = polynomial(element.numerator)
+    return above if element.denominator is None else above / polynomial(element.denominator)

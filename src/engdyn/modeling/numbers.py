@@ -1,0 +1,139 @@
+"""Numbers for equations of motion: parameters, inputs and states become accelerations."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import sympy as sm
+from sympy.physics.vector import dynamicsymbols
+
+from engdyn.errors import EngdynError
+
+if TYPE_CHECKING:
+    from engdyn.modeling.equations import EquationsOfMotion
+
+__all__ = ["accelerations", "input_values", "parameter_values", "state_derivative"]
+
+
+def parameter_values(eom: EquationsOfMotion, values: Mapping[str, float]) -> list[float]:
+    """Values of the parameters in the order of ``eom.parameters``; every one must be given and finite."""
+    if not isinstance(values, Mapping):
+        raise EngdynError(f"values must map parameter names to numbers, not be a {type(values).__name__}")
+    missing = [p.name for p in eom.parameters if p.name not in values]
+    if missing:
+        raise EngdynError(f"values lacks the parameters {', '.join(missing)}: give each a number in SI units")
+    return [_finite(values[p.name], f"parameter {p.name}") for p in eom.parameters]
+
+
+def _finite(value: Any, what: str) -> float:
+    try:
+        number = float(value)
+    except (TypeError, ValueError) as error:
+        raise EngdynError(f"{what} is {value!r}: give a number in SI units") from error
+    if not math.isfinite(number):
+        raise EngdynError(f"{what} is {number}: give a finite number")
+    return number
+
+
+def input_values(
+    eom: EquationsOfMotion, inputs: Mapping[str, Any] | None, values: Mapping[str, float], t: float = 0.0
+) -> list[float]:
+    """Value, rate and acceleration of every input, in the order of the compiled arguments.
+
+    What is not given takes its default (a drive angle Omega*t, say) or is zero.
+    """
+    given = dict(inputs or {})
+    known = {w.func.__name__: w for w in eom.inputs}
+    accepted = {*known, *getattr(eom, "accepted_inputs", ())}
+    for name in given:
+        if name not in accepted:
+            raise EngdynError(f"unknown input {name!r}: the equations have {', '.join(sorted(accepted)) or 'none'}")
+    found: list[float] = []
+    for name, function in known.items():
+        if name in given:
+            found += _input_triple(name, given[name])
+        elif function in eom.defaults:
+            found += [_default(part, values, t) for part in eom.defaults[function]]
+        else:
+            found += [0.0, 0.0, 0.0]
+    return found
+
+
+def _input_triple(name: str, value: Any) -> list[float]:
+    if isinstance(value, int | float | np.number):
+        return [_finite(value, f"input {name}"), 0.0, 0.0]
+    try:
+        parts = list(value)
+    except TypeError as error:
+        raise EngdynError(f"input {name} is {value!r}: give a number or (value, rate, acceleration)") from error
+    if len(parts) != 3:
+        raise EngdynError(f"input {name} has {len(parts)} entries: give a number or (value, rate, acceleration)")
+    return [_finite(part, f"input {name}") for part in parts]
+
+
+def _default(part: sm.Expr, values: Mapping[str, float], t: float) -> float:
+    numbers = {s: values[s.name] for s in sm.sympify(part).free_symbols if s.name in values}
+    return float(sm.sympify(part).xreplace({**numbers, dynamicsymbols._t: sm.Float(t)}))
+
+
+def accelerations(
+    eom: EquationsOfMotion, q: Any, u: Any, values: Mapping[str, float], inputs: Mapping[str, Any] | None, t: float
+) -> np.ndarray:
+    """Implementation of :meth:`EquationsOfMotion.accelerations`."""
+    q, u = _states(eom, q, u)
+    n, m = len(eom.coordinates), len(eom.speeds)
+    rest = [*parameter_values(eom, values), *input_values(eom, inputs, values, t), float(t)]
+    shape = np.broadcast_shapes(q.shape[:-1], u.shape[:-1])
+    columns = [q[..., i] for i in range(n)] + [u[..., i] for i in range(m)]
+    flat = eom.compiled("numpy")(*columns, *rest)[: m * m + m]
+    stacked = np.stack([np.broadcast_to(np.asarray(x, dtype=float), shape) for x in flat], axis=-1)
+    mass, force = stacked[..., : m * m].reshape(*shape, m, m), stacked[..., m * m :]
+    if not np.all(np.isfinite(stacked)):
+        raise EngdynError("the equations of motion are not finite at this state: a root or a quotient has no value there")
+    try:
+        found = np.linalg.solve(mass, force[..., None])[..., 0]
+    except np.linalg.LinAlgError:
+        found = np.full_like(force, np.nan)
+    if not np.all(np.isfinite(found)) or np.any(np.linalg.cond(mass) > 1e14):
+        raise EngdynError(
+            "singular mass matrix at this state: some combination of coordinates has no inertia there (a coordinate "
+            "singularity, or a mass of zero); choose another state, other coordinates or masses"
+        )
+    return found
+
+
+def _states(eom: EquationsOfMotion, q: Any, u: Any) -> tuple[np.ndarray, np.ndarray]:
+    try:
+        q, u = np.asarray(q, dtype=float), np.asarray(u, dtype=float)
+    except (TypeError, ValueError) as error:
+        raise EngdynError(f"q and u must be arrays of numbers, given {q!r} and {u!r}") from error
+    for name, array, size in (("q", q, len(eom.coordinates)), ("u", u, len(eom.speeds))):
+        if array.ndim == 0 or array.shape[-1] != size:
+            raise EngdynError(f"{name} has shape {array.shape}: its last axis must hold {size} values")
+        if not np.all(np.isfinite(array)):
+            raise EngdynError(f"{name} contains values that are not finite")
+    return q, u
+
+
+def state_derivative(eom: EquationsOfMotion, values: Mapping[str, float]) -> Callable[..., np.ndarray]:
+    """Implementation of :meth:`EquationsOfMotion.function`."""
+    n, m = len(eom.coordinates), len(eom.speeds)
+    parameters = parameter_values(eom, values)
+    compiled = eom.compiled("math")
+    rest = input_values(eom, None, values)
+    fixed = not eom.defaults
+
+    def derivative(t: float, x: np.ndarray, inputs: Mapping[str, Any] | None = None) -> np.ndarray:
+        now = rest if fixed and inputs is None else input_values(eom, inputs, values, t)
+        flat = compiled(*(float(c) for c in x), *parameters, *now, float(t))
+        mass = np.array(flat[: m * m]).reshape(m, m)
+        try:
+            udot = np.linalg.solve(mass, np.array(flat[m * m : m * m + m]))
+        except np.linalg.LinAlgError as error:
+            raise EngdynError(f"singular mass matrix at t = {t:.5g} s, x = {np.asarray(x).tolist()}") from error
+        return np.concatenate([flat[m * m + m : m * m + m + n], udot])
+
+    return derivative

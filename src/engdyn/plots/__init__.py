@@ -1,0 +1,17 @@
+"""Pictures of systems and results: ``engdyn.plots.draw(system)`` and its companions, each with words beside it."""
+
+from __future__ import annotations
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "alternative": ["alt", "show"],
+        "drawing": ["draw"],
+        "energy": ["potential_energy"],
+        "equilibria": ["branches", "equilibrium_poses"],
+        "projection": ["View"],
+        "style": ["style"],
+    },
+)

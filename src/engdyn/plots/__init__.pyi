@@ -1,0 +1,8 @@
+from .alternative import alt, show
+from .drawing import draw
+from .energy import potential_energy
+from .equilibria import branches, equilibrium_poses
+from .projection import View
+from .style import style
+
+__all__ = ["View", "alt", "branches", "draw", "equilibrium_poses", "potential_energy", "show", "style"]

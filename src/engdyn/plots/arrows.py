@@ -1,0 +1,99 @@
+"""How dimensions, labels and arrows look; the counterpart of ``symbols`` for what is written on a drawing."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from engdyn import shapes
+from engdyn.plots.pen import Pen, direction, left_of
+from engdyn.plots.symbols import arc_label, arc_points, trace
+
+__all__: list[str] = []
+
+SHORTEST = 18.0
+"""A coordinate arrow shorter than this many points is replaced by one that only shows the positive direction."""
+
+SHOWN = 30.0
+"""Length of that arrow, in points."""
+
+
+@trace.register
+def _(shape: shapes.Dimension, pen: Pen) -> None:
+    start, end = pen.view.project([shape.start, shape.end])
+    along = direction(end - start)
+    across = left_of(along)
+    shift = shape.offset * across
+    if shape.offset:
+        beyond = math.copysign(4.0 * pen.unit, shape.offset) * across
+        for foot in (start, end):
+            pen.line([foot + 0.55 * shift, foot + shift + beyond], shape.role, 0.9)
+    start, end = start + shift, end + shift
+    pen.line([start, end], shape.role, 1.1)
+    pen.head(start, -along, shape.role, 8.0)
+    pen.head(end, along, shape.role, 8.0)
+    side = across if shape.offset >= 0.0 else -across
+    pen.text_at([((start + end) / 2, side), ((start + end) / 2, -side)], shape.label, shape.role, 3.0)
+
+
+@trace.register
+def _(shape: shapes.Label, pen: Pen) -> None:
+    pen.text(shape.point, shape.text, shape.role, shape.side, 5.0)
+
+
+@trace.register
+def _(shape: shapes.CoordinateArrow, pen: Pen) -> None:
+    start, end = pen.view.project([shape.start, shape.end])
+    positive = direction(pen.view.project([shape.positive])[0])
+    if np.linalg.norm(end - start) < SHORTEST * pen.unit:
+        end = start + SHOWN * pen.unit * positive
+    tick = 7.0 * pen.unit * left_of(direction(end - start))
+    pen.line([start - tick, start + tick], shape.role, 1.8)
+    pen.arrow([start, end], shape.role, 2.0)
+    _at_arrow(pen, end, start, shape.label, shape.role)
+
+
+def _turn(shape, pen: Pen, start: float, end: float, weight: float) -> None:
+    """Draw an arc with a head at ``end``."""
+    steps = max(int(abs(end - start) / 0.05), 8)
+    pen.arrow(arc_points(shape, np.linspace(start, end, steps + 1)), shape.role, weight)
+
+
+@trace.register
+def _(shape: shapes.AngleArrow, pen: Pen) -> None:
+    end = shape.end
+    if abs(end - shape.start) * shape.radius < SHORTEST * pen.unit:
+        # At most a quarter turn, however small the radius is on paper.
+        end = shape.start + math.copysign(min(SHOWN * pen.unit / shape.radius, math.pi / 2), shape.positive)
+    _turn(shape, pen, shape.start, end, 2.0)
+    middle = (shape.start + end) / 2
+    center, middle = pen.view.project(np.vstack([shape.center, arc_points(shape, np.array([middle]))[0]]))
+    pen.text(middle, shape.label, shape.role, direction(middle - center), 5.0)
+
+
+def _at_arrow(pen: Pen, best: np.ndarray, other: np.ndarray, label: str, role: str) -> None:
+    """Write the label of a straight arrow beyond one of its ends, or beside it."""
+    out, middle = direction(best - other), (best + other) / 2
+    places = [(best, out), (other, -out), (middle, left_of(out)), (middle, -left_of(out))]
+    pen.text_at(places, label, role, 4.0)
+
+
+@trace.register
+def _(shape: shapes.ForceArrow, pen: Pen) -> None:
+    start, end = pen.view.project([shape.start, shape.end])
+    pen.arrow([start, end], shape.role, 2.8, 13.0)
+    _at_arrow(pen, start, end, shape.label, shape.role)
+
+
+@trace.register
+def _(shape: shapes.GravityArrow, pen: Pen) -> None:
+    start, end = pen.view.project([shape.start, shape.end])
+    pen.arrow([start, end], shape.role, 1.8, 11.0)
+    pen.text((start + end) / 2, shape.label, shape.role, left_of(direction(end - start)), 4.0)
+
+
+@trace.register
+def _(shape: shapes.MomentArrow, pen: Pen) -> None:
+    _turn(shape, pen, shape.start, shape.end, 2.4)
+    arc_label(shape, pen, 5.0, shape.role)

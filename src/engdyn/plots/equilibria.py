@@ -1,0 +1,215 @@
+"""Pictures of equilibria: their poses on the drawing, and how they move with a parameter (course chapter 4)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from engdyn.errors import EngdynError
+from engdyn.plots.alternative import describe
+from engdyn.plots.axes import MARKS, coordinate_axis, is_stable, legend_entry, split
+from engdyn.plots.drawing import Layer, draw_layers, drawing_axes
+from engdyn.plots.pen import direction
+from engdyn.plots.style import new_axes, style
+from engdyn.plots.words import number, pose, quantity, symbol, with_unit
+from engdyn.shapes import Label, Shape
+
+if TYPE_CHECKING:
+    from engdyn.analysis.branches import BranchSet
+    from engdyn.analysis.equilibrium import Equilibrium
+    from engdyn.system import System
+
+__all__ = ["branches", "equilibrium_poses", "verdicts"]
+
+FEW = 4
+"""Up to so many poses are labeled with their coordinates; more get numbers."""
+
+
+def verdicts(system: System, equilibria: Sequence[Equilibrium]) -> list[str]:
+    """Return the stability verdict of each equilibrium, judged from the linearized equations (course chapter 5)."""
+    if not equilibria:
+        return []
+    from engdyn.analysis.linear import linearize
+    from engdyn.analysis.stability import stability
+
+    eom = system.lagrange()
+    return [stability(linearize(eom, state)).verdict for state in equilibria]
+
+
+def equilibrium_poses(
+    system: System,
+    equilibria: Sequence[Equilibrium],
+    ax: Axes | None = None,
+    *,
+    judged: Sequence[str] | None = None,
+) -> Axes:
+    """Draw all equilibria of a system on top of each other: stable ones solid, unstable ones broken.
+
+    Course section 4.2, Fig. 4.2.
+
+    Parameters
+    ----------
+    system : System
+    equilibria : sequence of Equilibrium
+        What ``system.equilibria`` returned.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; default: new axes.
+    judged : sequence of str, optional
+        Stability verdicts, one for each equilibrium, if they are known already.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    EngdynError
+        There is no equilibrium to draw.
+    """
+    if not len(equilibria):
+        raise EngdynError(f"{system.title}: no equilibrium was found, so there is no pose to draw.")
+    judged = verdicts(system, equilibria) if judged is None else list(judged)
+    stable = [is_stable(verdict) for verdict in judged]
+    drawn = [list(system.shapes(np.asarray(state.q, float), dict(state.values))) for state in equilibria]
+    names = _names(system, equilibria, stable)
+    layers = [
+        Layer([*_structure(shapes), Label(at, name, side)], dashed=not kind)
+        for shapes, kind, name, (at, side) in zip(drawn, stable, names, _label_places(drawn), strict=True)
+    ]
+    layers.sort(key=lambda layer: not layer.dashed)
+    ax = drawing_axes(layers) if ax is None else ax
+    draw_layers(ax, layers)
+    parts = [
+        f"{i}: {pose(system.coordinates, state.q)} ({verdict})"
+        for i, (state, verdict) in enumerate(zip(equilibria, judged, strict=True), 1)
+    ]
+    count = f"{len(parts)} equilibri{'um' if len(parts) == 1 else 'a'}"
+    describe(ax, f"{system.title}, {count} drawn on top of each other. {'; '.join(parts)}.")
+    return ax
+
+
+def _structure(shapes: Sequence[Shape]) -> list[Shape]:
+    return [shape for shape in Layer(shapes, structure_only=True).visible if not isinstance(shape, Label)]
+
+
+def _names(system: System, equilibria: Sequence[Equilibrium], stable: Sequence[bool]) -> list[str]:
+    """Return a short label for each pose: the coordinates in which the poses differ, or numbers for many poses."""
+    kinds = ["stable" if kind else "unstable" for kind in stable]
+    if len(equilibria) > FEW:
+        return [f"{i}" for i in range(1, len(equilibria) + 1)]
+    q = np.array([state.q for state in equilibria], float)
+    differ = np.flatnonzero(np.ptp(q, axis=0) > 1e-9)[:2]
+    chosen = [system.coordinates[i] for i in differ]
+    rows = [[f"{symbol(c)} = {_short(q[k, i], c.unit)}" for i, c in zip(differ, chosen, strict=True)] for k in range(len(q))]
+    return ["\n".join([*row, kind]) for row, kind in zip(rows, kinds, strict=True)]
+
+
+def _short(value: float, unit: str) -> str:
+    return f"{number(np.degrees(value).round(1))}°" if unit == "rad" else f"{number(float(f'{value:.3g}'))} {unit}"
+
+
+def _label_places(drawn: Sequence[Sequence[Shape]]) -> list[tuple[tuple[float, ...], tuple[float, float]]]:
+    """Return where to name each pose: at the body that moves most between the poses, on its outer side."""
+    centers = [[_center(shape) for shape in shapes if shape.role == "body"] for shapes in drawn]
+    bodies = min(len(row) for row in centers)
+    if not bodies:
+        return [((0.0, 0.0), (1.0, 0.0))] * len(drawn)
+    places = np.array([row[:bodies] for row in centers])
+    most = int(np.argmax(np.ptp(places, axis=0).sum(axis=-1)))
+    middle = places[:, most].mean(axis=0)
+    return [(tuple(row[most]), tuple(direction((row[most] - middle)[:2]))) for row in places]
+
+
+def _center(shape: Any) -> NDArray[np.float64]:
+    for name in ("center", "point"):
+        if hasattr(shape, name):
+            return np.array(getattr(shape, name))
+    return np.mean(shape.points, axis=0)
+
+
+def branches(branch_set: BranchSet, coordinate: str, ax: Axes | None = None, *, system: System) -> Axes:
+    """Plot how one coordinate of the equilibria moves with a parameter (course section 4.3).
+
+    Stable branches are solid, unstable ones broken; folds, pitchforks and transcritical points are marked and named.
+
+    Parameters
+    ----------
+    branch_set : BranchSet
+        What ``engdyn.continue_equilibria`` returned.
+    coordinate : str
+        Name of the coordinate to plot upward.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; default: new axes.
+    system : System
+        Knows symbols and units.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    EngdynError
+        Unknown coordinate.
+    """
+    from engdyn.plots.axes import index_of
+
+    index = index_of(system, coordinate)
+    parameter = next(p for p in system.parameters if p.name == branch_set.parameter)
+    ax = new_axes() if ax is None else ax
+    with style():
+        for kind in (True, False):
+            across, up = _runs(branch_set, index, kind)
+            if len(across):
+                ax.plot(across, up, **{k: v for k, v in MARKS[kind].items() if k != "markerfacecolor"})
+        for point in branch_set.points:
+            _mark_point(ax, point, index)
+        ax.set_xlabel(with_unit(symbol(parameter), parameter.unit))
+        low, high = ax.get_ylim()
+        coordinate_axis(ax.yaxis, system.coordinates[index], high - low)
+        handles = [legend_entry(kind) for kind in (True, False) if len(_runs(branch_set, index, kind)[0])]
+        if handles:
+            ax.legend(handles=handles, loc="best", frameon=True)
+        ax.margins(x=0.0, y=0.08)
+    describe(ax, _branches_in_words(branch_set, system, parameter, index))
+    return ax
+
+
+def _runs(branch_set: BranchSet, index: int, kind: bool) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return all stretches of one stability as one line, interrupted by NaN."""
+    across, up = [], []
+    for branch in branch_set:
+        stable = np.asarray(branch.stable, bool)
+        for run in split(stable):
+            if stable[run.start] == kind:
+                across += [np.asarray(branch.parameter, float)[run], [np.nan]]
+                up += [np.asarray(branch.q, float)[run, index], [np.nan]]
+    return np.concatenate([*across, []]), np.concatenate([*up, []])
+
+
+def _mark_point(ax: Axes, point: Any, index: int) -> None:
+    x, y = float(point.parameter), float(point.q[index])
+    ax.plot([x], [y], marker="D", color="black", markersize=7.0, linestyle="", zorder=6)
+    ax.annotate(point.kind, (x, y), xytext=(8.0, 8.0), textcoords="offset points", fontsize=12.0, zorder=7)
+
+
+def _branches_in_words(branch_set: BranchSet, system: System, parameter: Any, index: int) -> str:
+    coordinate = system.coordinates[index]
+    text = f"{system.title}: {coordinate.name} [{coordinate.unit}] of the equilibria over {parameter.name}"
+    text += f" [{parameter.unit}], {len(branch_set)} branch{'' if len(branch_set) == 1 else 'es'}."
+    for branch in branch_set:
+        first, last = (quantity(parameter.name, float(branch.parameter[i]), parameter.unit) for i in (0, -1))
+        ends = " to ".join(number(float(branch.q[i][index])) for i in (0, -1))
+        share = ("stable", "unstable", "partly stable")[_share(branch.stable)]
+        text += f" From {first} to {last}: {coordinate.name} {ends}, {share}."
+    for point in branch_set.points:
+        text += f" {point.kind.capitalize()} at {quantity(parameter.name, float(point.parameter), parameter.unit)}."
+    return text
+
+
+def _share(stable: Sequence[bool]) -> int:
+    return 0 if all(stable) else (2 if any(stable) else 1)
