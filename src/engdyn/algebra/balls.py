@@ -140,7 +140,8 @@ class _IntervalBalls:
         divide, divide_into = self.type.__truediv__, self.type.__rtruediv__
         self.type.__truediv__ = lambda x, y: self._finite(divide(x, y), x, y)
         self.type.__rtruediv__ = lambda x, y: self._finite(divide_into(x, y), x, y)
-        self.type.__pow__, self.type.__abs__ = power, self.fabs
+        self.type.__pow__, self.type.__rpow__ = self._raised, lambda x, y: self._raised(_number(y), x)
+        self.type.__abs__ = self.fabs
         self.functions = {name: getattr(self, name) for name in ("sin", "cos", "tan", "square", "fabs")}
         for name, low, high in self.domains:
             self.functions[name] = self._on_domain(name, libmp.from_float(low), libmp.from_float(high))
@@ -152,6 +153,11 @@ class _IntervalBalls:
         """Return the result, or the whole line where it or an operand is unbounded."""
         bounded = all(self.is_finite(x) for x in (result, *operands) if self.is_ball(x))
         return result if bounded else self.undefined
+
+    def _raised(self, x: Any, exponent: Any) -> Any:
+        if isinstance(exponent, int):
+            return power(x, exponent)
+        return self.functions["exp"](self.functions["log"](x) * exponent)
 
     def _on_domain(self, name: str, least: Any, greatest: Any) -> Callable[[Any], Any]:
         """Return an elementary function that is monotonic (or even, cosh) on its domain, undefined beyond."""
@@ -197,7 +203,7 @@ class _IntervalBalls:
         return self._finite(self.make(self.lib.mpi_abs(x._mpi_, 53)), x)
 
     def square(self, x: Any) -> Any:
-        return self._finite(self.make(self.lib.mpi_square(x._mpi_, 53)), x)
+        return self._finite(self.make(self.lib.libmpi.mpi_square(x._mpi_, 53)), x)
 
     def cos(self, x: Any) -> Any:
         return self._circular(x)[0]
@@ -234,14 +240,14 @@ def ball(lower: Any, upper: Any = None) -> Any:
     EngdynError
         When a bound is NaN or not a number, or `lower` exceeds `upper`.
     """
+    if upper is None:
+        return _number(lower)
     if isinstance(lower, float) and isinstance(upper, float) and -math.inf < lower <= upper < math.inf:
         return _backend.between(lower, upper)
-    low, high = _number(lower), _number(lower if upper is None else upper)
-    if upper is not None and _backend.lower(low - high) > 0.0:
-        raise EngdynError(
-            f"ball({lower!r}, {upper!r}): the lower bound exceeds the upper one; exchange them."
-        )
-    return low if upper is None else hull(low, high)
+    low, high = _number(lower), _number(upper)
+    if _backend.lower(low - high) > 0.0:
+        raise EngdynError(f"ball({lower!r}, {upper!r}): the lower bound exceeds the upper one; exchange them.")
+    return hull(low, high)
 
 
 def _number(value: Any) -> Any:

@@ -123,8 +123,21 @@ def _factored(ring: Ring, p: Any) -> Node:
     nodes += _sine_squares(ring, counts)
     for factor, multiplicity in sorted(counts, key=lambda fm: len(fm[0])):
         if multiplicity:
-            nodes.append(make_power(_sum_of_terms(ring, factor), multiplicity))
+            node = _sum_of_terms(ring, factor)
+            if _negative(node, content):
+                node, content = _sum_of_terms(ring, -factor), content * (-1) ** multiplicity
+                nodes.append(("number", Fraction((-1) ** multiplicity)))
+            nodes.append(make_power(node, multiplicity))
     return make_product(nodes)
+
+
+def _negative(node: Node, content: Fraction) -> bool:
+    """Whether a factor reads better with the opposite sign: fewer minus signs altogether."""
+    if node[0] != "sum":
+        return False
+    signs = [part[0] == "product" and part[1][0][0] == "number" and part[1][0][1] < 0 for part in node[1]]
+    signs = [s or (part[0] == "number" and part[1] < 0) for s, part in zip(signs, node[1], strict=True)]
+    return 2 * sum(signs) > len(signs) or (2 * sum(signs) == len(signs) and content < 0)
 
 
 def _sine_squares(ring: Ring, counts: list[list]) -> list[Node]:

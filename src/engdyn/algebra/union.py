@@ -18,11 +18,12 @@ def common_ring(rings: Sequence[Ring]) -> tuple[Ring, list[Transfer]]:
     divisors: dict = {}
     dependent: dict = {}
     plain: dict = {}
-    for ring in rings:
-        for key in reversed(ring.keys):
+    named = [_by_name(ring, rings[0]) for ring in rings]
+    for keys in named:
+        for key in reversed(keys):
             if key[0] in ("root", "magnitude", "call"):
                 dependent.setdefault(key)
-        for key in ring.keys:
+        for key in keys:
             if key[0] == "sine":
                 divisors[key[1]] = lcm(divisors.get(key[1], 1), key[2])
             elif key[0] in ("symbol", "function"):
@@ -36,21 +37,43 @@ def common_ring(rings: Sequence[Ring]) -> tuple[Ring, list[Transfer]]:
             *plain,
         ]
     )
-    transfers = [Transfer(ring, union, divisors) for ring in rings]
+    transfers = [Transfer(ring, keys, union, divisors) for ring, keys in zip(rings, named, strict=True)]
     for transfer in transfers:
         transfer.define_dependent()
     return union, transfers
 
 
+def _by_name(ring: Ring, first: Ring) -> list[tuple]:
+    """Keys of a ring, its symbols replaced by those of the same name in the first ring.
+
+    ``Symbol("m")`` and ``Symbol("m", positive=True)`` are different objects, but mean one mass.
+    """
+    if ring is first:
+        return list(ring.keys)
+    known = {_name(key): key[1] for key in first.keys if key[0] in ("symbol", "function")}
+    renamed = {
+        key[1]: known[_name(key)]
+        for key in ring.keys
+        if key[0] in ("symbol", "function") and known.get(_name(key), key[1]) != key[1]
+    }
+    if not renamed:
+        return list(ring.keys)
+    return [(key[0], key[1].xreplace(renamed), *key[2:]) for key in ring.keys]
+
+
+def _name(key: tuple) -> tuple[str, str]:
+    return key[0], str(key[1]) if key[0] == "symbol" else key[1].func.__name__
+
+
 class Transfer:
     """The map of one ring's elements into a larger ring."""
 
-    def __init__(self, source: Ring, target: Ring, divisors: dict):
-        self._source, self._target, self._divisors = source, target, divisors
+    def __init__(self, source: Ring, keys: list[tuple], target: Ring, divisors: dict):
+        self._source, self._keys, self._target, self._divisors = source, keys, target, divisors
         self._images: dict[int, Element] = {}
         self._mapping = [
             target.index.get(key if key[0] not in ("sine", "cosine") else (key[0], key[1], divisors[key[1]]), 0)
-            for key in source.keys
+            for key in keys
         ]
 
     def __call__(self, element: Element) -> Element:
@@ -79,7 +102,7 @@ class Transfer:
     def image(self, index: int) -> Element:
         """The image of one generator."""
         if index not in self._images:
-            key = self._source.keys[index]
+            key = self._keys[index]
             if key[0] in ("sine", "cosine"):
                 self._images[index] = self._angle_image(key)
             else:
@@ -92,7 +115,7 @@ class Transfer:
         target = self._target
         at = target.index["sine", base, whole]
         if at not in target.definitions:
-            own = self._source.definitions[self._source.index["sine", base, divisor]].arguments[0]
+            own = self._source.definitions[self._keys.index(("sine", base, divisor))].arguments[0]
             cosine, sine = target.generator(("cosine", base, whole)), target.generator(("sine", base, whole))
             target.define(at, Definition("sine", (), (cosine,)))
             angle = self(own) * divisor * target.constant(1) / whole
@@ -119,7 +142,7 @@ class Transfer:
                     carried.slopes = tuple(None if s is None else self(s) for s in definition.slopes)
 
     def _carry(self, index: int, definition: Definition) -> None:
-        target, key = self._target, self._source.keys[index]
+        target, key = self._target, self._keys[index]
         arguments = tuple(self(a) for a in definition.arguments)
         for at, known in target.definitions.items():
             if known.kind != definition.kind or len(known.arguments) != len(arguments):

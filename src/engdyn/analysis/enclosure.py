@@ -18,6 +18,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -68,7 +69,9 @@ class Certificate:
     @property
     def points(self) -> np.ndarray:
         """Midpoints of the root enclosures, shape (number of roots, n)."""
-        return np.array([[_middle(pair) for pair in root] for root in self.roots]).reshape(-1, len(self.region))
+        return np.array([[_middle(pair) for pair in root] for root in self.roots]).reshape(
+            -1, len(self.region)
+        )
 
     @cached_property
     def certified(self) -> bool:
@@ -130,7 +133,9 @@ def enclose_roots(
     rest = search.undecided
     for box in accepted:  # so that no undecided box hides what an accepted one covers
         rest = [piece for other in rest for piece in _subtract(other, box)]
-    undecided = _merge(np.array(rest).reshape(-1, len(region), 2), np.array(accepted).reshape(-1, len(region), 2))
+    undecided = _merge(
+        _as_array(rest, len(region)), _as_array(accepted, len(region)), np.array(search.extent)
+    )
     return Certificate(
         region=region,
         searched=searched,
@@ -150,9 +155,13 @@ def _checked_region(region: Any, periodic: Sequence[int], max_boxes: int, min_wi
         raise EngdynError(f"region={region!r} is no box: give one pair (lower, upper) per unknown.") from None
     for k, (low, high) in enumerate(box):
         if not (-math.inf < low < high < math.inf):
-            raise EngdynError(f"region[{k}]=({low}, {high}) has no extent: give finite bounds, lower < upper.")
+            raise EngdynError(
+                f"region[{k}]=({low}, {high}) has no extent: give finite bounds, lower < upper."
+            )
     if not box or any(k not in range(len(box)) for k in periodic):
-        raise EngdynError(f"periodic={periodic!r} with {len(box)} unknowns: give indices from 0 to one below that.")
+        raise EngdynError(
+            f"periodic={periodic!r} with {len(box)} unknowns: give indices from 0 to one below that."
+        )
     if max_boxes < 1 or not 0.0 < min_width < 1.0:
         raise EngdynError(f"{max_boxes=}, {min_width=}: give at least one box and a width between 0 and 1.")
     return box
@@ -164,7 +173,7 @@ class _Step(NamedTuple):
     image: Box
     proved: bool  # the box holds exactly one root, and the image holds it
     regular: bool  # every pivot of the preconditioned Jacobian excludes zero
-    effect: list[float] | None  # how much each unknown moves the equations across the box
+    slopes: list[list[Any]] | None  # the Jacobian on the box where it is finite
 
 
 class _Search:
@@ -210,19 +219,22 @@ class _Search:
                 return ()
             if step.regular and self._accept_inflated(box, inner, step.image):
                 return ()
-            shrunk = math.prod(_width(a) / _width(b) for a, b in zip(step.image, inner, strict=True) if _width(b))
+            shrunk = math.prod(
+                _width(a) / _width(b) for a, b in zip(step.image, inner, strict=True) if _width(b)
+            )
             inner = step.image
             if shrunk > 0.3:
                 break
         self.rejected.extend(_subtract(box, inner))
-        return self._cut(inner, step.effect)
+        return self._cut(inner, step.slopes)
 
-    def _cut(self, box: Box, effect: list[float] | None) -> Sequence[Box]:
+    def _cut(self, box: Box, slopes: list[list[Any]] | None) -> Sequence[Box]:
         """Return the two parts of a box, cut across the unknown that moves the equations most."""
-        wide = [k for k, pair in enumerate(box) if _width(pair) > self.smallest[k]]
+        effect = None if slopes is None else _effects(slopes, box)
         if effect is None:
             effect = [_width(pair) / extent for pair, extent in zip(box, self.extent, strict=True)]
-        wide = [k for k in wide if effect[k] > 0.0]  # cutting an unknown without effect tells nothing
+        # Cutting across an unknown that has no effect at all would tell nothing.
+        wide = [k for k, pair in enumerate(box) if _width(pair) > self.smallest[k] and effect[k] > 0.0]
         if wide:
             k = max(wide, key=effect.__getitem__)
             low, high = box[k]
@@ -235,11 +247,14 @@ class _Search:
     def _newton(self, box: Box) -> _Step | None:
         """Return one Newton step on a box, None when the box is proved to hold no root."""
         variables = [ball(low, high) for low, high in box]
-        if not all(contains_zero(value) for value in map(ball, self.function(variables))):
+        ranges = [ball(value) for value in self.function(variables)]
+        if not all(map(contains_zero, ranges)):
             return None
         slopes = [[ball(entry) for entry in row] for row in self.jacobian(variables)]
-        if not all(is_finite(entry) for row in slopes for entry in row):
-            return _Step(box, proved=False, regular=False, effect=None)
+        if not all(
+            map(is_finite, chain(ranges, *slopes))
+        ):  # not known to be continuous: no mean value theorem
+            return _Step(box, proved=False, regular=False, slopes=None)
         center = [_middle(pair) for pair in box]
         values = [ball(value) for value in self.function([ball(c) for c in center])]
         spread = [x - c for x, c in zip(variables, center, strict=True)]
@@ -248,11 +263,10 @@ class _Search:
                 value = value + slope * d
             if not contains_zero(value):
                 return None
-        effect = _effects(slopes, box)
         inverse = _inverse([[midpoint(entry) for entry in row] for row in slopes])
         if inverse is None:
-            return _Step(box, proved=False, regular=False, effect=effect)
-        return _contract(box, center, spread, values, slopes, inverse, effect)
+            return _Step(box, proved=False, regular=False, slopes=slopes)
+        return _contract(box, center, spread, values, slopes, inverse)
 
     def _accept_inflated(self, box: Box, inner: Box, image: Box) -> bool:
         """Try to prove a root on a cut or an edge, which no box it borders can hold in its interior.
@@ -260,7 +274,9 @@ class _Search:
         The proof is tried on a box grown around the image, once a step has pinned the root down.
         """
         relative = [_width(pair) / extent for pair, extent in zip(image, self.extent, strict=True)]
-        pinned = (r < 1e-6 or _width(a) < 0.5 * _width(b) for r, a, b in zip(relative, image, inner, strict=True))
+        pinned = (
+            r < 1e-6 or _width(a) < 0.5 * _width(b) for r, a, b in zip(relative, image, inner, strict=True)
+        )
         if not all(pinned):
             return False
         floor = 0.01 * max(relative) + 1e-10
@@ -285,6 +301,9 @@ class _Search:
         for known, known_root in self.accepted:
             if _contains(known, root) or _contains(single, known_root):  # one root seen from two boxes
                 self.rejected.extend(_subtract(box, known))
+                return
+            if _meet(known_root, root):  # too blurred to tell one root from two
+                self.undecided.append(box)
                 return
         self.accepted.append((single, root))
         self.rejected.extend(_subtract(box, single))
@@ -320,7 +339,6 @@ def _contract(
     values: list[Any],
     slopes: list[list[Any]],
     inverse: list[list[float]],
-    effect: list[float] | None,
 ) -> _Step | None:
     """Return the Hansen-Sengupta step: Gauss-Seidel on the preconditioned linear interval equations."""
     n, image, proved, regular = len(box), list(box), True, True
@@ -342,7 +360,7 @@ def _contract(
         if low > old_low or high < old_high:
             image[i] = (max(low, old_low), min(high, old_high))
             spread[i] = ball(*image[i]) - center[i]
-    return _Step(tuple(image), proved, regular, effect)
+    return _Step(tuple(image), proved, regular, slopes)
 
 
 def _dot(weights: list[float], balls: list[Any]) -> Any:
@@ -380,13 +398,14 @@ def _wrap(box: Box, root: Box, k: int, bounds: tuple[float, float], margin: floa
 
 
 def _snap(root: tuple[float, float], bounds: tuple[float, float]) -> tuple[float, float]:
-    """Return the enclosure of one unknown, widened to be centered on an edge its middle lies beyond."""
-    edge = min(max(_middle(root), bounds[0]), bounds[1])
-    if edge == _middle(root):
+    """Return the enclosure of one unknown, widened to be centered on zero where it holds zero, on an edge
+    of the region where its middle lies beyond."""
+    center = 0.0 if root[0] <= 0.0 <= root[1] else min(max(_middle(root), bounds[0]), bounds[1])
+    if center == _middle(root):
         return root
-    unit = 2.0 * math.ulp(max(abs(edge), abs(root[0]), abs(root[1])))
-    reach = unit * math.ceil(max(edge - root[0], root[1] - edge) / unit)
-    return edge - reach, edge + reach
+    unit = 2.0 * math.ulp(max(abs(center), abs(root[0]), abs(root[1])))  # so that both bounds are exact
+    reach = unit * math.ceil(max(center - root[0], root[1] - center) / unit)
+    return center - reach, center + reach
 
 
 def _width(pair: tuple[float, float]) -> float:
@@ -398,7 +417,10 @@ def _middle(pair: tuple[float, float]) -> float:
 
 
 def _meet(a: Box, b: Box) -> bool:
-    return all(low <= other_high and other_low <= high for (low, high), (other_low, other_high) in zip(a, b, strict=True))
+    return all(
+        low <= other_high and other_low <= high
+        for (low, high), (other_low, other_high) in zip(a, b, strict=True)
+    )
 
 
 def _contains(large: Box, small: Box) -> bool:
@@ -407,7 +429,10 @@ def _contains(large: Box, small: Box) -> bool:
 
 def _subtract(box: Box, other: Box) -> list[Box]:
     """Return boxes that cover what is left of a box when another one is cut out of it."""
-    if any(high <= low_cut or high_cut <= low for (low, high), (low_cut, high_cut) in zip(box, other, strict=True)):
+    if any(
+        high <= low_cut or high_cut <= low
+        for (low, high), (low_cut, high_cut) in zip(box, other, strict=True)
+    ):
         return [box]
     pieces, rest = [], list(box)
     for k, (low_cut, high_cut) in enumerate(other):
@@ -418,3 +443,61 @@ def _subtract(box: Box, other: Box) -> list[Box]:
             pieces.append((*rest[:k], (high_cut, high), *rest[k + 1 :]))
         rest[k] = (max(low, low_cut), min(high, high_cut))
     return pieces
+
+
+def _as_array(boxes: Sequence[Box], n: int) -> np.ndarray:
+    """Return boxes as an array of shape (number of boxes, n, 2)."""
+    return np.array(boxes, dtype=float).reshape(-1, n, 2)
+
+
+def _is_covered(box: Box, boxes: Sequence[Box]) -> bool:
+    """Return whether boxes leave no gap in a box, by cutting it along their faces."""
+    waiting = [(np.array(box), _as_array(boxes, len(box)))]
+    while waiting:
+        piece, others = waiting.pop()
+        low, high = piece.T
+        others = others[((others[:, :, 0] < high) & (others[:, :, 1] > low)).all(axis=1)]
+        if not len(others):
+            return False
+        if ((others[:, :, 0] <= low) & (others[:, :, 1] >= high)).all(axis=1).any():
+            continue
+        inside = (others > low[:, None]) & (others < high[:, None])
+        k = int(inside.sum(axis=(0, 2)).argmax())
+        faces = np.sort(others[:, k][inside[:, k]])
+        for bounds in ((low[k], faces[len(faces) // 2]), (faces[len(faces) // 2], high[k])):
+            part = piece.copy()
+            part[k] = bounds
+            waiting.append((part, others))
+    return True
+
+
+def _merge(boxes: np.ndarray, avoided: np.ndarray, extent: np.ndarray) -> list[Box]:
+    """Return few boxes that cover the given ones and overlap none of those avoided."""
+    merged: list[Box] = []
+    waiting = [(boxes, 4)] if len(boxes) else []
+    while waiting:
+        group, halvings = waiting.pop()
+        hull = np.stack([group[:, :, 0].min(axis=0), group[:, :, 1].max(axis=0)], axis=1)
+        parts = _parts_at_gap(group)
+        if parts is None:
+            relative = (hull[:, 1] - hull[:, 0]) / extent
+            filled = (np.diff(group)[:, :, 0] / extent).prod(axis=1).sum() / relative.prod()
+            free = not ((avoided[:, :, 0] < hull[:, 1]) & (avoided[:, :, 1] > hull[:, 0])).all(axis=1).any()
+            if len(group) == 1 or (free and (halvings == 0 or filled > 0.5 or relative.max() < 1e-3)):
+                merged.append(tuple((float(low), float(high)) for low, high in hull))
+                continue
+            order = group[:, relative.argmax(), 0].argsort()
+            parts, halvings = np.array_split(group[order], 2), max(halvings - 1, 0)
+        waiting.extend((part, halvings) for part in parts)
+    return merged
+
+
+def _parts_at_gap(boxes: np.ndarray) -> list[np.ndarray] | None:
+    """Return the boxes before and after the gaps along one unknown, None when there is no gap."""
+    for k in range(boxes.shape[1]):
+        ordered = boxes[boxes[:, k, 0].argsort()]
+        reached = np.maximum.accumulate(ordered[:, k, 1])
+        gaps = np.flatnonzero(ordered[1:, k, 0] > reached[:-1]) + 1
+        if len(gaps):
+            return np.split(ordered, gaps)
+    return None

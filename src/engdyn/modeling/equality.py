@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import sympy as sm
+
 
 from engdyn.algebra.elimination import determinant
 from engdyn.algebra.ring import Element, Ring
@@ -81,24 +83,29 @@ def prove_equal(a: EquationsOfMotion, b: EquationsOfMotion) -> Proof:
     for eom in (a, b):
         if not isinstance(eom, EquationsOfMotion):
             raise EngdynError(f"{eom!r} is not EquationsOfMotion: make them with EquationsOfMotion.from_residuals")
-    if set(a.coordinates) != set(b.coordinates):
-        raise EngdynError(f"the coordinates differ: {list(a.coordinates)} and {list(b.coordinates)}")
-    if set(a.speeds) != set(b.speeds):
-        raise EngdynError(f"the speeds differ: {list(a.speeds)} and {list(b.speeds)}; choose the same for both")
+    for what in ("coordinates", "speeds"):
+        first, second = (_names(getattr(eom, what)) for eom in (a, b))
+        if set(first) != set(second):
+            raise EngdynError(f"the {what} differ: {', '.join(first)} and {', '.join(second)}; use the same in both")
     try:
         return _compare(a, b)
     except OutsideRingError as error:
         return Proof("undecided", f"outside the exact algebra: {error}")
 
 
+def _names(quantities: Sequence[sm.Expr]) -> list[str]:
+    """Names of dynamicsymbols and rates: theta, theta'."""
+    return [f"{x.expr.func.__name__}'" if x.is_Derivative else x.func.__name__ for x in quantities]
+
+
 def _compare(a: EquationsOfMotion, b: EquationsOfMotion) -> Proof:
     ring, (into_a, into_b) = common_ring([a.ring, b.ring])
-    order = [b.speeds.index(u) for u in a.speeds]
+    order = [_names(b.speeds).index(u) for u in _names(a.speeds)]
     mass_a, force_a = [[into_a(e) for e in row] for row in a.mass], [into_a(e) for e in a.force]
     mass_b = [[into_b(row[j]) for j in order] for row in b.mass]
     force_b = [into_b(e) for e in b.force]
     rates_a = [into_a(e) for e in a.rates]
-    rates_b = [into_b(b.rates[b.coordinates.index(q)]) for q in a.coordinates]
+    rates_b = [into_b(b.rates[_names(b.coordinates).index(q)]) for q in _names(a.coordinates)]
     if not _equal(rates_a, rates_b):
         return _different_kinematics(a, ring, rates_a, rates_b)
     entries = [*(e for row in mass_a for e in row), *force_a], [*(e for row in mass_b for e in row), *force_b]

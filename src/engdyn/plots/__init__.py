@@ -12,6 +12,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "energy": ["potential_energy"],
         "equilibria": ["branches", "equilibrium_poses"],
         "projection": ["View"],
-        "style": ["style"],
+        "look": ["style"],
     },
 )

@@ -3,6 +3,6 @@ from .drawing import draw
 from .energy import potential_energy
 from .equilibria import branches, equilibrium_poses
 from .projection import View
-from .style import style
+from .look import style
 
 __all__ = ["View", "alt", "branches", "draw", "equilibrium_poses", "potential_energy", "show", "style"]

@@ -16,7 +16,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from engdyn.errors import EngdynError
-from engdyn.plots.style import style
+from engdyn.plots.look import style
 
 __all__ = ["alt", "bundle", "describe", "png", "show"]
 

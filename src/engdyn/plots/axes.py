@@ -13,7 +13,7 @@ from matplotlib.ticker import FuncFormatter, MultipleLocator
 from numpy.typing import NDArray
 
 from engdyn.errors import EngdynError
-from engdyn.plots.style import PALETTE
+from engdyn.plots.look import PALETTE
 from engdyn.plots.words import symbol, with_unit
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ def coordinate_range(coordinate: Any, shown: Iterable[float] = ()) -> tuple[floa
     """Return an interval to plot over: the admissible one, a full turn, or what surrounds the values ``shown``."""
     low, high = coordinate.bounds if coordinate.bounds is not None else (-math.inf, math.inf)
     shown = [float(value) for value in shown]
-    wide = math.pi if coordinate.kind == "angle" else 1.5 * max([abs(value) for value in shown], default=0.0) or 1.0
+    wide = math.pi if coordinate.unit == "rad" else 1.5 * max([abs(value) for value in shown], default=0.0) or 1.0
     low, high = (float(low) if math.isfinite(low) else -wide), (float(high) if math.isfinite(high) else wide)
     return min([low, *shown]), max([high, *shown])
 
@@ -59,7 +59,7 @@ def coordinate_range(coordinate: Any, shown: Iterable[float] = ()) -> tuple[floa
 def coordinate_axis(axis: Axis, coordinate: Any, span: float) -> None:
     """Label an axis with symbol and unit of a coordinate; wide axes of angles get ticks at multiples of pi."""
     axis.set_label_text(with_unit(symbol(coordinate), coordinate.unit))
-    if coordinate.kind == "angle" and span > 0.75 * math.pi:
+    if coordinate.unit == "rad" and span > 0.75 * math.pi:
         step = math.pi / 4 if span < 1.6 * math.pi else math.pi / 2
         axis.set_major_locator(MultipleLocator(step))
         axis.set_major_formatter(FuncFormatter(lambda value, _: _multiple_of_pi(value)))

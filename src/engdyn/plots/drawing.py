@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +18,7 @@ from engdyn.plots.alternative import describe
 from engdyn.plots.labels import place
 from engdyn.plots.pen import Area, Line, Pen
 from engdyn.plots.projection import View
-from engdyn.plots.style import COLORS, FILL, new_figure, style
+from engdyn.plots.look import COLORS, FILL, new_figure, style
 from engdyn.plots.symbols import trace
 from engdyn.plots.words import pose as pose_in_words
 from engdyn.shapes import Shape
@@ -26,7 +26,7 @@ from engdyn.shapes import Shape
 if TYPE_CHECKING:
     from engdyn.system import System
 
-__all__ = ["Layer", "draw", "draw_layers", "drawing_axes", "shown_pose"]
+__all__ = ["Layer", "draw", "draw_layers", "drawing_axes", "shown_pose", "structure"]
 
 STRUCTURE = ("body", "link", "spring", "damper", "joint", "ground")
 """Roles that remain when a pose is drawn faintly: what is there, without what is written on it."""
@@ -40,18 +40,22 @@ LARGEST, SMALLEST = (7.0, 5.6), (3.0, 2.4)
 
 @dataclass(frozen=True)
 class Layer:
-    """One pose in a picture; a faint one shows the structure only, a dashed one broken outlines without filling."""
+    """One pose in a picture: faint is pale and shows the structure only, dashed has broken outlines unfilled."""
 
     shapes: Sequence[Shape]
     faint: bool = False
     dashed: bool = False
-    structure_only: bool = False
 
     @property
     def visible(self) -> list[Shape]:
         """The shapes that this layer shows."""
-        shapes = list(self.shapes)
-        return [s for s in shapes if s.role in STRUCTURE] if self.faint or self.structure_only else shapes
+        return structure(self.shapes) if self.faint else list(self.shapes)
+
+
+def structure(shapes: Iterable[Shape]) -> list[Shape]:
+    """Return bodies, connections and ground without what is written on them."""
+    kept = (shape for shape in shapes if shape.role in STRUCTURE)
+    return [replace(shape, label="") if getattr(shape, "label", "") else shape for shape in kept]
 
 
 def draw(
@@ -125,18 +129,18 @@ def shown_pose(system: System) -> NDArray[np.float64]:
 
 def _shown_value(coordinate) -> float:
     low, high = coordinate.bounds if coordinate.bounds is not None else (-np.inf, np.inf)
-    wish = 0.45 if coordinate.kind == "angle" else 0.0
+    wish = 0.45 if coordinate.unit == "rad" else 0.0
     if not low <= wish <= high:
         wish = 0.5 * (low + high) if np.isfinite(low + high) else (low if np.isfinite(low) else high)
     return float(wish)
 
 
-def drawing_axes(layers: Sequence[Layer], view: View | None = None) -> Axes:
+def drawing_axes(layers: Sequence[Layer], view: View | None = None, margin: float = MARGIN) -> Axes:
     """Make axes without frame that fill a new figure, as wide and high as the layers ask for within limits."""
     corners = _corners(layers, 1e-9, view or View())
     wish = np.ptp(corners, axis=0) if len(corners) else np.ones(2)
-    room = np.array(LARGEST) - 2.0 * MARGIN / 72.0
-    size = wish / max(np.max(wish / room), 1e-30) + 2.0 * MARGIN / 72.0
+    room = np.array(LARGEST) - 2.0 * margin / 72.0
+    size = wish / max(np.max(wish / room), 1e-30) + 2.0 * margin / 72.0
     width, height = np.maximum(size, SMALLEST)
     return new_figure(width, height, layout=None).add_axes((0.0, 0.0, 1.0, 1.0))
 
@@ -152,6 +156,7 @@ def draw_layers(
     view: View | None = None,
     labels: bool = True,
     keep: bool = False,
+    margin: float = MARGIN,
 ) -> None:
     """Draw poses on top of each other at one common scale; labels only for the poses that are not faint.
 
@@ -166,10 +171,12 @@ def draw_layers(
         Write the labels.
     keep : bool
         Keep what the present limits of the axes show in sight.
+    margin : float
+        Room around the shapes for labels, in points.
     """
     layers, view = list(layers), view or View()
     with style():
-        unit = _frame(ax, layers, view, keep and bool(ax.collections))
+        unit = _frame(ax, layers, view, keep and bool(ax.collections), margin)
         marks, texts = [], []
         for depth, layer in enumerate(layers):
             pen = _traced(layer, unit, view)
@@ -186,13 +193,13 @@ def _traced(layer: Layer, unit: float, view: View) -> Pen:
     return pen
 
 
-def _frame(ax: Axes, layers: Sequence[Layer], view: View, keep: bool) -> float:
+def _frame(ax: Axes, layers: Sequence[Layer], view: View, keep: bool, margin: float) -> float:
     """Set equal scales and limits that hold all layers; return meters per typographic point."""
     ax.set_axis_off()
     box = ax.get_position()
     root = ax.get_figure(root=True)
     paper = 72.0 * root.get_size_inches() * (box.width, box.height)
-    room = np.maximum(paper - 2.0 * MARGIN, 0.4 * paper)
+    room = np.maximum(paper - 2.0 * margin, 0.4 * paper)
     # Symbols of fixed size on paper widen the drawing a little, so the scale is found in two steps.
     unit = 0.0
     for _ in range(3):
@@ -220,7 +227,7 @@ def _ink(ax: Axes, pen: Pen, layer: Layer, shift: float) -> None:
 
 
 def _color(role: str, layer: Layer) -> tuple[float, ...]:
-    return to_rgba(COLORS[role], 0.4 if layer.faint else 1.0)
+    return to_rgba(COLORS["input"] if layer.dashed else COLORS[role], 0.4 if layer.faint else 1.0)
 
 
 def _lines(lines: list[Line], layer: Layer, level: float) -> LineCollection:

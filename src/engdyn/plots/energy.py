@@ -18,7 +18,7 @@ from engdyn.plots.alternative import describe
 from engdyn.plots.axes import MARKS, coordinate_axis, coordinate_range, index_of, is_stable, legend_entry
 from engdyn.plots.drawing import checked_pose
 from engdyn.plots.equilibria import verdicts
-from engdyn.plots.style import PALETTE, new_axes, style
+from engdyn.plots.look import PALETTE, new_axes, style
 from engdyn.plots.words import number, pose, with_unit
 
 if TYPE_CHECKING:
@@ -83,8 +83,9 @@ def potential_energy(
                 raise EngdynError(f"x and y are both {system.coordinates[up].name!r}; choose two coordinates.")
             marks = _contours(ax, system, energy, name, (across, grid_x), (up, grid_y), held, states)
         _mark(ax, marks, stable)
-        ax.set_title(system.title)
-    _tell(ax, system, name, states, stable, marks, energy, held, y is not None)
+        ax.set_title(system.title, pad=14.0)
+    over = [system.coordinates[i] for i in ([across] if y is None else [across, up])]
+    _tell(ax, system, name, states, stable, energy, over)
     return ax
 
 
@@ -112,7 +113,7 @@ def effective_potential(
         The energy depends explicitly on time.
     """
     symbols = [c.symbol for c in system.coordinates]
-    still, kinetic = (_without_rates(e, symbols) for e in (system.potential_energy, system.kinetic_energy))
+    still, kinetic = (_at_rest(system, e) for e in (system.potential_energy, system.kinetic_energy))
     steady = bool(kinetic.free_symbols) and kinetic.has(*symbols)
     expression = still - kinetic if steady else still
     if dynamicsymbols._t in expression.xreplace({q: sm.Dummy() for q in symbols}).free_symbols:
@@ -129,13 +130,14 @@ def effective_potential(
     return energy, "$V - T_0$" if steady else "$V$"
 
 
-def _without_rates(expression: Any, symbols: Sequence[sm.Expr]) -> sm.Expr:
-    """Put zero for all rates and for all inputs and prescribed motions."""
+def _at_rest(system: System, expression: Any) -> sm.Expr:
+    """Put zero for the rates of the coordinates; inputs and prescribed motions take their defaults or vanish."""
     expression = sm.sympify(expression)
-    rates = {rate: sm.S.Zero for rate in expression.atoms(sm.Derivative)}
-    expression = expression.xreplace(rates)
-    others = expression.atoms(sm.core.function.AppliedUndef) - set(symbols)
-    return expression.xreplace(dict.fromkeys(others, sm.S.Zero))
+    known = {rate: sm.S.Zero for rate in expression.atoms(sm.Derivative)}
+    for item in system.inputs:
+        for order, default in enumerate(item.default or (0, 0, 0)):
+            known[item.symbol.diff(dynamicsymbols._t, order)] = sm.sympify(default)
+    return expression.xreplace(known)
 
 
 def _first_dependent(system: System, energy: Callable, held: NDArray) -> str:
@@ -166,6 +168,7 @@ def _curve(ax, system, energy, name, across, grid, held, states) -> NDArray[np.f
     ax.plot(grid, energy(poses), color=PALETTE[6])
     coordinate_axis(ax.xaxis, system.coordinates[across], np.ptp(grid))
     ax.set_ylabel(with_unit(name, "J"))
+    ax.ticklabel_format(axis="y", scilimits=(-3, 4), useMathText=True)
     ax.margins(x=0.02, y=0.12)
     q = np.array([state.q for state in states], float).reshape(-1, len(held))
     on_curve = np.tile(held, (len(q), 1))
@@ -182,6 +185,8 @@ def _contours(ax, system, energy, name, x, y, held, states) -> NDArray[np.float6
     ax.contour(filled, colors="white", linewidths=0.6, alpha=0.6)
     bar = ax.get_figure(root=True).colorbar(filled, ax=ax)
     bar.set_label(with_unit(name, "J"))
+    bar.formatter.set_powerlimits((-3, 4))
+    bar.formatter.set_useMathText(True)
     coordinate_axis(ax.xaxis, system.coordinates[across], np.ptp(grid_x))
     coordinate_axis(ax.yaxis, system.coordinates[up], np.ptp(grid_y))
     ax.grid(False)
@@ -192,17 +197,17 @@ def _mark(ax: Axes, marks: NDArray[np.float64], stable: Sequence[bool]) -> None:
     for kind in (True, False):
         chosen = marks[[s is kind for s in stable]] if len(marks) else marks
         if len(chosen):
-            look = {**MARKS[kind], "linestyle": ""}
-            ax.plot(*chosen.T, marker="o", markeredgewidth=2.0, zorder=5, clip_on=False, **look)
+            # The white rim keeps a filled mark visible on dark contours.
+            look = {**MARKS[kind], "linestyle": "", "markeredgecolor": "white" if kind else MARKS[kind]["color"]}
+            ax.plot(*chosen.T, marker="o", markersize=11.0, markeredgewidth=2.0, zorder=5, clip_on=False, **look)
     kinds = sorted(set(stable), reverse=True)
     if kinds:
         ax.legend(handles=[legend_entry(kind, "o") for kind in kinds], loc="best", frameon=True)
 
 
-def _tell(ax, system, name, states, stable, marks, energy, held, over_two) -> None:
+def _tell(ax, system, name, states, stable, energy, over) -> None:
     plain = "potential energy V" if "T" not in name else "effective potential V − T₀"
-    over = [ax.get_xlabel(), ax.get_ylabel()][: 1 + over_two]
-    text = f"{system.title}: {plain} in J over {' and '.join(over)}."
+    text = f"{system.title}: {plain} in J over {' and '.join(with_unit(c.name, c.unit) for c in over)}."
     for state, is_well in zip(states, stable, strict=True):
         height = float(energy(np.asarray(state.q, float)))
         kind = "stable" if is_well else "unstable"

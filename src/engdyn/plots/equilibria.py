@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from engdyn.errors import EngdynError
 from engdyn.plots.alternative import describe
 from engdyn.plots.axes import MARKS, coordinate_axis, is_stable, legend_entry, split
-from engdyn.plots.drawing import Layer, draw_layers, drawing_axes
+from engdyn.plots.drawing import Layer, draw_layers, drawing_axes, structure
 from engdyn.plots.pen import direction
-from engdyn.plots.style import new_axes, style
+from engdyn.plots.look import new_axes, style
 from engdyn.plots.words import number, pose, quantity, symbol, with_unit
 from engdyn.shapes import Label, Shape
 
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
     from engdyn.system import System
 
 __all__ = ["branches", "equilibrium_poses", "verdicts"]
+
+MARGIN = 76.0
+"""Room around the poses for their names, in points."""
 
 FEW = 4
 """Up to so many poses are labeled with their coordinates; more get numbers."""
@@ -36,7 +39,7 @@ def verdicts(system: System, equilibria: Sequence[Equilibrium]) -> list[str]:
     from engdyn.analysis.linear import linearize
     from engdyn.analysis.stability import stability
 
-    eom = system.lagrange()
+    eom = system.equations
     return [stability(linearize(eom, state)).verdict for state in equilibria]
 
 
@@ -74,15 +77,15 @@ def equilibrium_poses(
         raise EngdynError(f"{system.title}: no equilibrium was found, so there is no pose to draw.")
     judged = verdicts(system, equilibria) if judged is None else list(judged)
     stable = [is_stable(verdict) for verdict in judged]
-    drawn = [list(system.shapes(np.asarray(state.q, float), dict(state.values))) for state in equilibria]
+    drawn = [_without_dampers(system.shapes(np.asarray(state.q, float), dict(state.values))) for state in equilibria]
     names = _names(system, equilibria, stable)
     layers = [
-        Layer([*_structure(shapes), Label(at, name, side)], dashed=not kind)
+        Layer([*shapes, Label(at, name, side, "coordinate" if kind else "input")], dashed=not kind)
         for shapes, kind, name, (at, side) in zip(drawn, stable, names, _label_places(drawn), strict=True)
     ]
     layers.sort(key=lambda layer: not layer.dashed)
-    ax = drawing_axes(layers) if ax is None else ax
-    draw_layers(ax, layers)
+    ax = drawing_axes(layers, margin=MARGIN) if ax is None else ax
+    draw_layers(ax, layers, margin=MARGIN)
     parts = [
         f"{i}: {pose(system.coordinates, state.q)} ({verdict})"
         for i, (state, verdict) in enumerate(zip(equilibria, judged, strict=True), 1)
@@ -92,8 +95,9 @@ def equilibrium_poses(
     return ax
 
 
-def _structure(shapes: Sequence[Shape]) -> list[Shape]:
-    return [shape for shape in Layer(shapes, structure_only=True).visible if not isinstance(shape, Label)]
+def _without_dampers(shapes: Sequence[Shape]) -> list[Shape]:
+    """Return the structure but for the dampers, which exert no force at rest and would only crowd the picture."""
+    return [shape for shape in structure(shapes) if shape.role != "damper"]
 
 
 def _names(system: System, equilibria: Sequence[Equilibrium], stable: Sequence[bool]) -> list[str]:

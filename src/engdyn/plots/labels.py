@@ -11,7 +11,7 @@ from matplotlib.text import Text
 from numpy.typing import NDArray
 
 from engdyn.plots.pen import Area, Line, Words
-from engdyn.plots.style import COLORS
+from engdyn.plots.look import COLORS
 
 __all__ = ["place"]
 

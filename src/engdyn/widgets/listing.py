@@ -1,0 +1,18 @@
+"""Which explorers there are."""
+
+from __future__ import annotations
+
+__all__ = ["catalogue"]
+
+NAMES = ("equilibrium",)
+
+
+def catalogue() -> list[str]:
+    """Return the names of all explorers, as in ``engdyn.widgets.equilibrium()``.
+
+    Examples
+    --------
+    >>> "equilibrium" in catalogue()
+    True
+    """
+    return sorted(NAMES)
