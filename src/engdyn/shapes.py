@@ -1,11 +1,11 @@
-"""Drawings as data: the small vocabulary in which a system describes its picture (Appendix A).
+r"""Drawings as data: the small vocabulary in which a system describes its picture (Appendix A).
 
 A system returns a list of these shapes for a pose and a set of parameter values; ``engdyn.plots`` turns them
 into a picture. As the geometry comes from the parameters of the model, drawing and model cannot disagree.
 
 Points are tuples of 2 or 3 coordinates in meters (X right, Y up; in space Z up), angles are in radians,
-labels are mathtext (``"$\\theta$"``). A shape says what it *is*, its ``role`` decides the color. Sizes that only
-serve reading (arrow heads, hatching, the width of a spring) are left to the picture unless given.
+labels are mathtext (``"$\theta$"``). A shape says what it *is*, its ``role`` decides the color. Sizes that
+only serve reading (arrow heads, hatching, the width of a spring) are left to the picture unless given.
 """
 
 from __future__ import annotations
@@ -19,15 +19,16 @@ from engdyn.errors import EngdynError
 __all__ = [
     "ROLES", "AngleArrow", "Box", "CenterLine", "CenterOfMass", "CoordinateArrow", "Curve",
     "Damper", "Dimension", "Disc", "ForceArrow", "GravityArrow", "Ground", "Label", "Link", "MomentArrow",
-    "Particle", "Pin", "Polygon", "Shape", "Spring", "Support", "TorsionalDamper",
-    "TorsionalSpring", "Wheel",
+    "Particle", "Pin", "Polygon", "Shape", "Spring", "Support", "TorsionalDamper", "TorsionalSpring", "Wheel",
 ]
-# fmt: on
 
 Point = tuple[float, ...]
 Points = tuple[Point, ...]
 
-ROLES = tuple("body link spring damper joint ground reference parameter coordinate input".split())
+ROLES = (
+    "body", "link", "spring", "damper", "joint", "ground", "reference", "parameter", "coordinate", "input",
+)
+# fmt: on
 """What a shape stands for; the style of a picture gives each role its color."""
 
 
@@ -53,7 +54,7 @@ class Shape:
     Raises
     ------
     EngdynError
-        A point has not 2 or 3 coordinates, a number is not finite, or the role is unknown.
+        A point without 2 or 3 coordinates, a number that is not finite, an unknown role.
     """
 
     def __post_init__(self) -> None:
@@ -69,8 +70,10 @@ class Shape:
                 value = _numbers(value, (2, 3), owner)
             elif field.type.startswith("float"):
                 value = _numbers((value,), (1,), owner)[0]
+            elif field.type == "str" and not isinstance(value, str):
+                raise EngdynError(f"{owner} is {value!r}, not text; give further arguments by name.")
             elif field.name == "role" and value not in ROLES:
-                raise EngdynError(f"{owner}: {value!r} is unknown; choose one of {', '.join(ROLES)}.")
+                raise EngdynError(f"{owner} {value!r} is unknown; choose from {', '.join(ROLES)}.")
             object.__setattr__(self, field.name, value)
 
 

@@ -13,7 +13,6 @@ import os
 import shutil
 import socket
 import subprocess
-import sys
 import time
 import urllib.error
 import urllib.request
@@ -22,7 +21,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import urlparse
 
-from engdyn.course.launch import lab_settings
+from engdyn.course.launch import lab_process, lab_settings
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 FLAGS = [
@@ -72,15 +71,14 @@ def running_lab(root: Path, home: Path) -> Iterator[Lab]:
     notebook = home / "settings" / "@jupyterlab" / "notebook-extension" / "tracker.jupyterlab-settings"
     notebook.parent.mkdir(parents=True)
     notebook.write_text(json.dumps({"windowingMode": "none"}))  # all cells are in the page, seen or not
-    (home / "config.json").write_text(json.dumps(settings))
-    environment = os.environ | {
+    (home / "private").mkdir()
+    command, environment = lab_process(home / "private", settings)
+    environment |= {
         "HOME": str(home),
         "JUPYTER_CONFIG_DIR": str(home / "jupyter"),
-        "JUPYTER_PREFER_ENV_PATH": "1",
         "IPYTHONDIR": str(home / "ipython"),
     }
     lab = Lab(f"http://127.0.0.1:{port}", token, root, home / "lab.log")
-    command = [sys.executable, "-m", "jupyterlab", f"--config={home / 'config.json'}"]
     with lab.log.open("w") as log:
         server = subprocess.Popen(command, env=environment, stdout=log, stderr=log, cwd=root)
     try:
@@ -132,6 +130,7 @@ class LabPage:
 
     def open(self, notebook: str) -> None:
         """Open a notebook of the served folder and wait for its kernel."""
+        assert (self.lab.root / notebook).is_file(), f"the course has no {notebook}"
         self.page.goto(f"{self.lab.address}/lab/tree/{notebook}?token={self.lab.token}&reset")
         self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]")
         self.page.wait_for_selector(CODE_CELLS)

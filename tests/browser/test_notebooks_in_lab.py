@@ -6,6 +6,8 @@ import nbformat
 import pytest
 from nbformat.v4 import new_code_cell, new_notebook
 
+from engdyn.course import execution
+
 pytestmark = pytest.mark.browser
 
 SLIDER_AND_PICTURE = """import io
@@ -32,7 +34,9 @@ widgets.VBox([slider, picture])"""
 
 def _put(lab, name, *sources):
     path = lab.root / "tests" / name
-    nbformat.write(new_notebook(cells=[new_code_cell(source) for source in sources]), path)
+    notebook = new_notebook(cells=[new_code_cell(source) for source in sources])
+    notebook.metadata["kernelspec"] = execution.KERNELSPEC
+    nbformat.write(notebook, path)
     return f"tests/{name}"
 
 

@@ -4,7 +4,7 @@ A *ball* encloses a real number, or all values a quantity takes on a box. It can
 zero; it never claims more than it can prove. One small interface stands in front of two backends:
 
 - ``flint.arb`` (python-flint, compiled), used where it is installed;
-- mpmath's real intervals in a private context (pure Python, some thirty times slower).
+- mpmath's real intervals in a private context (pure Python, some ten times slower).
 
 The environment variable ``ENGDYN_BACKEND`` (``flint`` or ``sympy``), read at import, overrules the choice.
 Balls support ``+ - * /`` with balls, ints and floats (a float is taken as exact); the functions in
@@ -54,10 +54,12 @@ class _ArbBalls:
         import flint
 
         self.arb, self.fmpq = flint.arb, flint.fmpq
-        self.undefined, self.pi = flint.arb.nan(), flint.arb.pi()
-        names = ("sqrt", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh", "asin", "acos", "atan")
+        self.undefined = flint.arb.nan()
+        with flint.ctx.workprec(512):  # callers may raise the working precision
+            self.pi = flint.arb.pi()
+        names = ("sqrt", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "asin", "acos", "atan")
         self.functions = {name: getattr(flint.arb, name) for name in names}
-        self.functions |= {"square": self.square, "fabs": self.fabs}
+        self.functions |= {"square": self.square, "fabs": self.fabs, "tanh": self.tanh}
 
     def is_ball(self, x: Any) -> bool:
         return type(x) is self.arb
@@ -94,6 +96,11 @@ class _ArbBalls:
 
     def excludes_zero(self, x: Any) -> bool:
         return x != 0
+
+    def tanh(self, x: Any) -> Any:
+        if x.rad() < 0.25:
+            return x.tanh()
+        return x.lower().tanh().union(x.upper().tanh())  # arb loses wide balls
 
     def fabs(self, x: Any) -> Any:
         absolute = self.arb.__abs__(x)
@@ -246,7 +253,7 @@ def ball(lower: Any, upper: Any = None) -> Any:
         return _backend.between(lower, upper)
     low, high = _number(lower), _number(upper)
     if _backend.lower(low - high) > 0.0:
-        raise EngdynError(f"ball({lower!r}, {upper!r}): the lower bound exceeds the upper one; exchange them.")
+        raise EngdynError(f"ball({lower!r}, {upper!r}): the lower bound exceeds the upper; exchange them.")
     return hull(low, high)
 
 

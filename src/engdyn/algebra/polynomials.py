@@ -103,6 +103,11 @@ class FlintPolynomials:
         c = p.leading_coefficient()
         return Fraction(int(c.p), int(c.q))
 
+    def specialize(self, p: Polynomial, values: dict[int, Fraction]) -> Polynomial:
+        """`p` with numbers in place of some generators."""
+        images = [self.constant(values[i]) if i in values else g for i, g in enumerate(self.gens)]
+        return p.compose(*images, ctx=self._context)
+
     def transfer(self, p: Polynomial, target: FlintPolynomials, mapping: list[int]) -> Polynomial:
         """`p` written in the generators of `target`; generator i becomes generator ``mapping[i]``."""
         # compose, not project_to_context: that one ignores the mapping between rings of equal size
@@ -175,6 +180,10 @@ class SympyPolynomials:
         """Coefficient of the leading term (0 for the zero polynomial)."""
         c = p.LC
         return Fraction(int(c.numerator), int(c.denominator))
+
+    def specialize(self, p: Polynomial, values: dict[int, Fraction]) -> Polynomial:
+        """`p` with numbers in place of some generators."""
+        return p.compose([(self.gens[i], self.constant(value)) for i, value in values.items()])
 
     def transfer(self, p: Polynomial, target: SympyPolynomials, mapping: list[int]) -> Polynomial:
         """`p` written in the generators of `target`; generator i becomes generator ``mapping[i]``."""

@@ -235,6 +235,14 @@ class Element:
             return None
         return ps.leading_coefficient(self.numerator)
 
+    def specialize(self, values: dict[int, Fraction]) -> Element:
+        """The element with numbers in place of some independent generators (no angle may contain them)."""
+        ps = self.ring.polynomials
+        above = ps.specialize(self.numerator, values)
+        if self.denominator is None:
+            return Element(self.ring, above)
+        return Element.quotient(self.ring, above, ps.specialize(self.denominator, values))
+
     def generators(self) -> set[int]:
         """Indices of the generators that occur."""
         ps = self.ring.polynomials

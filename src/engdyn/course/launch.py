@@ -15,7 +15,7 @@ from typing import Any
 
 from ..errors import EngdynError
 
-__all__ = ["LaunchError", "lab_settings", "open_lab"]
+__all__ = ["LaunchError", "lab_process", "lab_settings", "open_lab"]
 
 USUAL_PORTS = range(8888, 8988)
 FIRST_PAGE = "notebooks/00_start_here.ipynb"
@@ -51,7 +51,7 @@ def lab_settings(root: Path, token: str, port: int, *, browser: bool = True) -> 
         },
         "LabApp": {
             "default_url": _first_page(root),
-            "news_url": None,  # no pop-up over the first page, no request to the network
+            "news_url": None,
             "check_for_updates_class": "jupyterlab.NeverCheckForUpdate",
         },
         "IdentityProvider": {"token": token},
@@ -81,17 +81,31 @@ def open_lab(root: str | Path, *, port: int | None = None, browser: bool = True)
     settings = lab_settings(root, token, port, browser=browser)
     print(f"The course is served at http://127.0.0.1:{port}{_first_page(root)}?token={token}")
     print("Ready in a few seconds. To stop it, press Ctrl-C here.", flush=True)
-    environment = os.environ | {"JUPYTER_PREFER_ENV_PATH": "1"}  # kernels of this environment come first
     with tempfile.TemporaryDirectory(prefix="engdyn-lab-") as private:
-        config = Path(private) / "jupyter_server_config.json"
-        config.write_text(json.dumps(settings), encoding="utf-8")
-        command = [sys.executable, "-m", "jupyterlab", f"--config={config}"]
+        command, environment = lab_process(Path(private), settings)
         with subprocess.Popen(command, env=environment) as lab:
             while True:
                 try:
                     return lab.wait()
                 except KeyboardInterrupt:  # JupyterLab got it too and asks whether to stop
                     continue
+
+
+def lab_process(private: Path, settings: dict[str, Any]) -> tuple[list[str], dict[str, str]]:
+    """Command and environment of a JupyterLab with these settings, which are written to a private folder."""
+    config = private / "jupyter_server_config.json"
+    config.write_text(json.dumps(settings), encoding="utf-8")
+    # Without its announcements JupyterLab neither covers the first page with a question nor asks the network.
+    page = private / "labconfig" / "page_config.json"
+    page.parent.mkdir()
+    quiet = {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}
+    page.write_text(json.dumps(quiet), encoding="utf-8")
+    search = [str(private), os.environ.get("JUPYTER_CONFIG_PATH", "")]
+    environment = os.environ | {
+        "JUPYTER_CONFIG_PATH": os.pathsep.join(filter(None, search)),
+        "JUPYTER_PREFER_ENV_PATH": "1",  # kernels of this environment come first
+    }
+    return [sys.executable, "-m", "jupyterlab", f"--config={config}"], environment
 
 
 def _checked_port(port: int) -> int:

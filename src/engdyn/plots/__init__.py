@@ -1,4 +1,4 @@
-"""Pictures of systems and results: ``engdyn.plots.draw(system)`` and its companions, each with words beside it."""
+"""Pictures of systems and results: ``engdyn.plots.draw(system)`` and companions, each with its words."""
 
 from __future__ import annotations
 

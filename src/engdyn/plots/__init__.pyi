@@ -2,7 +2,7 @@ from .alternative import alt, show
 from .drawing import draw
 from .energy import potential_energy
 from .equilibria import branches, equilibrium_poses
-from .projection import View
 from .look import style
+from .projection import View
 
 __all__ = ["View", "alt", "branches", "draw", "equilibrium_poses", "potential_energy", "show", "style"]

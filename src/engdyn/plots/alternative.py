@@ -1,7 +1,7 @@
 """Every picture has a text alternative, and shows itself together with it.
 
-Plot functions call `describe`; readers call `alt`. `show` displays a picture as PNG beside the text, so that a
-notebook read aloud, searched, or compared by a test has words where the picture is.
+Plot functions call `describe`; readers call `alt`. `show` displays a picture as PNG beside the text, so that
+a notebook read aloud, searched, or compared by a test has words where the picture is.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ def png(drawn: Axes | Figure, dpi: float = DPI) -> bytes:
     """
     figure, stream = _figure(drawn), io.BytesIO()
     with style():
-        # print_png of an own canvas works whatever backend the figure belongs to; no date, so files can be compared.
+        # An Agg canvas works whatever backend the figure belongs to; no version inside, so files compare.
         canvas = figure.canvas if isinstance(figure.canvas, FigureCanvasAgg) else FigureCanvasAgg(figure)
         canvas.print_figure(stream, format="png", dpi=dpi, metadata={"Software": None})
     return stream.getvalue()

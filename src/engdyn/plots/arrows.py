@@ -13,7 +13,7 @@ from engdyn.plots.symbols import arc_label, arc_points, trace
 __all__: list[str] = []
 
 SHORTEST = 18.0
-"""A coordinate arrow shorter than this many points is replaced by one that only shows the positive direction."""
+"""A coordinate arrow shorter than this many points gives way to one that only shows the positive sense."""
 
 SHOWN = 30.0
 """Length of that arrow, in points."""
@@ -51,7 +51,9 @@ def _(shape: shapes.CoordinateArrow, pen: Pen) -> None:
     tick = 7.0 * pen.unit * left_of(direction(end - start))
     pen.line([start - tick, start + tick], shape.role, 1.8)
     pen.arrow([start, end], shape.role, 2.0)
-    _at_arrow(pen, end, start, shape.label, shape.role)
+    out, left = direction(end - start), left_of(direction(end - start))
+    places = [(end, out), ((start + end) / 2, left), ((start + end) / 2, -left)]
+    pen.text_at(places, shape.label, shape.role, 4.0)
 
 
 def _turn(shape, pen: Pen, start: float, end: float, weight: float) -> None:
@@ -72,18 +74,14 @@ def _(shape: shapes.AngleArrow, pen: Pen) -> None:
     pen.text(middle, shape.label, shape.role, direction(middle - center), 5.0)
 
 
-def _at_arrow(pen: Pen, best: np.ndarray, other: np.ndarray, label: str, role: str) -> None:
-    """Write the label of a straight arrow beyond one of its ends, or beside it."""
-    out, middle = direction(best - other), (best + other) / 2
-    places = [(best, out), (other, -out), (middle, left_of(out)), (middle, -left_of(out))]
-    pen.text_at(places, label, role, 4.0)
-
-
 @trace.register
 def _(shape: shapes.ForceArrow, pen: Pen) -> None:
     start, end = pen.view.project([shape.start, shape.end])
     pen.arrow([start, end], shape.role, 2.8, 13.0)
-    _at_arrow(pen, start, end, shape.label, shape.role)
+    # Beyond one of the ends, whichever is free, or beside it.
+    out, middle = direction(start - end), (start + end) / 2
+    places = [(start, out), (end, -out), (middle, left_of(out)), (middle, -left_of(out))]
+    pen.text_at(places, shape.label, shape.role, 4.0)
 
 
 @trace.register

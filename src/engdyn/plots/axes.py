@@ -43,21 +43,27 @@ def index_of(system: System, coordinate: str) -> int:
     """
     names = [c.name for c in system.coordinates]
     if coordinate not in names:
-        raise EngdynError(f"{system.title} has no coordinate {coordinate!r}; choose one of {', '.join(names)}.")
+        raise EngdynError(
+            f"{system.title} has no coordinate {coordinate!r}; choose one of {', '.join(names)}."
+        )
     return names.index(coordinate)
 
 
 def coordinate_range(coordinate: Any, shown: Iterable[float] = ()) -> tuple[float, float]:
-    """Return an interval to plot over: the admissible one, a full turn, or what surrounds the values ``shown``."""
+    """Return an interval to plot over: the admissible one, a full turn, or what surrounds ``shown``."""
     low, high = coordinate.bounds if coordinate.bounds is not None else (-math.inf, math.inf)
     shown = [float(value) for value in shown]
-    wide = math.pi if coordinate.unit == "rad" else 1.5 * max([abs(value) for value in shown], default=0.0) or 1.0
+    wide = (
+        math.pi
+        if coordinate.unit == "rad"
+        else 1.5 * max([abs(value) for value in shown], default=0.0) or 1.0
+    )
     low, high = (float(low) if math.isfinite(low) else -wide), (float(high) if math.isfinite(high) else wide)
     return min([low, *shown]), max([high, *shown])
 
 
 def coordinate_axis(axis: Axis, coordinate: Any, span: float) -> None:
-    """Label an axis with symbol and unit of a coordinate; wide axes of angles get ticks at multiples of pi."""
+    """Label an axis with symbol and unit of a coordinate; wide axes of angles have ticks in parts of pi."""
     axis.set_label_text(with_unit(symbol(coordinate), coordinate.unit))
     if coordinate.unit == "rad" and span > 0.75 * math.pi:
         step = math.pi / 4 if span < 1.6 * math.pi else math.pi / 2

@@ -15,10 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 from engdyn.errors import EngdynError
 from engdyn.plots import arrows as _arrows  # noqa: F401  (registers how arrows and labels look)
 from engdyn.plots.alternative import describe
-from engdyn.plots.labels import place
+from engdyn.plots.labels import SIZE, place
+from engdyn.plots.look import COLORS, FILL, new_figure, style
 from engdyn.plots.pen import Area, Line, Pen
 from engdyn.plots.projection import View
-from engdyn.plots.look import COLORS, FILL, new_figure, style
 from engdyn.plots.symbols import trace
 from engdyn.plots.words import pose as pose_in_words
 from engdyn.shapes import Shape
@@ -31,8 +31,8 @@ __all__ = ["Layer", "draw", "draw_layers", "drawing_axes", "shown_pose", "struct
 STRUCTURE = ("body", "link", "spring", "damper", "joint", "ground")
 """Roles that remain when a pose is drawn faintly: what is there, without what is written on it."""
 
-MARGIN = 26.0
-"""Room around the shapes for labels, in points."""
+MARGIN = (26.0, 26.0)
+"""Room for labels at the sides of the shapes, and above and below them, in points."""
 
 LARGEST, SMALLEST = (7.0, 5.6), (3.0, 2.4)
 """Limits of the width and height of a figure made for a drawing, in inches."""
@@ -40,7 +40,7 @@ LARGEST, SMALLEST = (7.0, 5.6), (3.0, 2.4)
 
 @dataclass(frozen=True)
 class Layer:
-    """One pose in a picture: faint is pale and shows the structure only, dashed has broken outlines unfilled."""
+    """One pose in a picture: faint is pale and without labels, dashed has broken outlines, unfilled."""
 
     shapes: Sequence[Shape]
     faint: bool = False
@@ -76,7 +76,7 @@ def draw(
     ----------
     system : System
     q : array_like, shape (n,), optional
-        Coordinates in the order of ``system.coordinates`` (m or rad); default: a pose that shows every coordinate.
+        Coordinates in the order of ``system.coordinates`` (m or rad); default: a pose that shows them.
     values : mapping of str to float, optional
         Parameter values in SI units; what is not given has its default.
     ax : matplotlib.axes.Axes, optional
@@ -121,7 +121,7 @@ def checked_pose(system: System, q: ArrayLike) -> NDArray[np.float64]:
 
 
 def shown_pose(system: System) -> NDArray[np.float64]:
-    """Return a pose in which all coordinates can be told apart: the system's own or angles of about 25 degrees."""
+    """Return a pose that shows the coordinates: the system's own, or angles of about 25 degrees."""
     if (pose := getattr(system, "pose", None)) is not None:
         return checked_pose(system, pose)
     return np.array([_shown_value(coordinate) for coordinate in system.coordinates])
@@ -135,12 +135,14 @@ def _shown_value(coordinate) -> float:
     return float(wish)
 
 
-def drawing_axes(layers: Sequence[Layer], view: View | None = None, margin: float = MARGIN) -> Axes:
-    """Make axes without frame that fill a new figure, as wide and high as the layers ask for within limits."""
+def drawing_axes(
+    layers: Sequence[Layer], view: View | None = None, margin: tuple[float, float] = MARGIN
+) -> Axes:
+    """Make axes without frame that fill a new figure, sized within limits as the layers ask for."""
     corners = _corners(layers, 1e-9, view or View())
     wish = np.ptp(corners, axis=0) if len(corners) else np.ones(2)
-    room = np.array(LARGEST) - 2.0 * margin / 72.0
-    size = wish / max(np.max(wish / room), 1e-30) + 2.0 * margin / 72.0
+    rim = 2.0 * np.array(margin) / 72.0
+    size = wish / max(np.max(wish / (np.array(LARGEST) - rim)), 1e-30) + rim
     width, height = np.maximum(size, SMALLEST)
     return new_figure(width, height, layout=None).add_axes((0.0, 0.0, 1.0, 1.0))
 
@@ -156,7 +158,8 @@ def draw_layers(
     view: View | None = None,
     labels: bool = True,
     keep: bool = False,
-    margin: float = MARGIN,
+    margin: tuple[float, float] = MARGIN,
+    size: float = SIZE,
 ) -> None:
     """Draw poses on top of each other at one common scale; labels only for the poses that are not faint.
 
@@ -171,8 +174,10 @@ def draw_layers(
         Write the labels.
     keep : bool
         Keep what the present limits of the axes show in sight.
-    margin : float
-        Room around the shapes for labels, in points.
+    margin : (float, float)
+        Room for labels at the sides, and above and below, in points.
+    size : float
+        Size of the letters in points.
     """
     layers, view = list(layers), view or View()
     with style():
@@ -183,7 +188,7 @@ def draw_layers(
             _ink(ax, pen, layer, -20.0 * (len(layers) - depth) * layer.faint)
             marks += [*pen.lines, *pen.areas]
             texts += pen.texts if labels and not layer.faint else []
-        place(ax, texts, marks, unit)
+        place(ax, texts, marks, unit, size)
 
 
 def _traced(layer: Layer, unit: float, view: View) -> Pen:
@@ -193,13 +198,13 @@ def _traced(layer: Layer, unit: float, view: View) -> Pen:
     return pen
 
 
-def _frame(ax: Axes, layers: Sequence[Layer], view: View, keep: bool, margin: float) -> float:
+def _frame(ax: Axes, layers: Sequence[Layer], view: View, keep: bool, margin: tuple[float, float]) -> float:
     """Set equal scales and limits that hold all layers; return meters per typographic point."""
     ax.set_axis_off()
     box = ax.get_position()
     root = ax.get_figure(root=True)
     paper = 72.0 * root.get_size_inches() * (box.width, box.height)
-    room = np.maximum(paper - 2.0 * margin, 0.4 * paper)
+    room = np.maximum(paper - 2.0 * np.array(margin), 0.4 * paper)
     # Symbols of fixed size on paper widen the drawing a little, so the scale is found in two steps.
     unit = 0.0
     for _ in range(3):

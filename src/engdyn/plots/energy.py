@@ -9,6 +9,7 @@ import numpy as np
 import sympy as sm
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
+from sympy.core.function import AppliedUndef
 from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.codegen import compile_elements
@@ -49,8 +50,8 @@ def potential_energy(
     values : mapping of str to float, optional
         Parameter values in SI units; what is not given has its default.
     x, y : str or (str, array_like), optional
-        Coordinates to plot over, by name or with the values (m or rad) to plot at. Default for ``x``: the first
-        coordinate on which the energy depends; without ``y`` a curve is drawn.
+        Coordinates to plot over, by name or with the values (m or rad) to plot at. Default for ``x``: the
+        first coordinate on which the energy depends; without ``y`` a curve is drawn.
     equilibria : sequence of Equilibrium, optional
         States to mark, filled where stable.
     ax : matplotlib.axes.Axes, optional
@@ -69,7 +70,9 @@ def potential_energy(
     """
     values = system.values(**dict(values or {}))
     states = list(equilibria or [])
-    held = checked_pose(system, at if at is not None else (states[0].q if states else np.zeros(len(system.coordinates))))
+    held = checked_pose(
+        system, at if at is not None else (states[0].q if states else np.zeros(len(system.coordinates)))
+    )
     energy, name = effective_potential(system, values)
     across, grid_x = _grid(system, x if x is not None else _first_dependent(system, energy, held), states)
     stable = [is_stable(verdict) for verdict in verdicts(system, states)]
@@ -80,7 +83,9 @@ def potential_energy(
         else:
             up, grid_y = _grid(system, y, states)
             if up == across:
-                raise EngdynError(f"x and y are both {system.coordinates[up].name!r}; choose two coordinates.")
+                raise EngdynError(
+                    f"x and y are both {system.coordinates[up].name!r}; choose two coordinates."
+                )
             marks = _contours(ax, system, energy, name, (across, grid_x), (up, grid_y), held, states)
         _mark(ax, marks, stable)
         ax.set_title(system.title, pad=14.0)
@@ -117,7 +122,9 @@ def effective_potential(
     steady = bool(kinetic.free_symbols) and kinetic.has(*symbols)
     expression = still - kinetic if steady else still
     if dynamicsymbols._t in expression.xreplace({q: sm.Dummy() for q in symbols}).free_symbols:
-        raise EngdynError(f"The energy of {system.title} depends on time; a plot over coordinates shows one instant.")
+        raise EngdynError(
+            f"The energy of {system.title} depends on time; a plot over coordinates shows one instant."
+        )
     known = {s: values[s.name] for s in expression.free_symbols if s.name in values}
     element = Converter([expression]).convert(expression)
     arguments = [*(("function", q, 0) for q in symbols), *(("symbol", s) for s in known)]
@@ -131,9 +138,10 @@ def effective_potential(
 
 
 def _at_rest(system: System, expression: Any) -> sm.Expr:
-    """Put zero for the rates of the coordinates; inputs and prescribed motions take their defaults or vanish."""
+    """Put zero for the rates of the coordinates; inputs take their defaults or vanish."""
     expression = sm.sympify(expression)
-    known = {rate: sm.S.Zero for rate in expression.atoms(sm.Derivative)}
+    own = {c.symbol for c in system.coordinates}
+    known = dict.fromkeys(expression.atoms(sm.Derivative) | (expression.atoms(AppliedUndef) - own), sm.S.Zero)
     for item in system.inputs:
         for order, default in enumerate(item.default or (0, 0, 0)):
             known[item.symbol.diff(dynamicsymbols._t, order)] = sm.sympify(default)
@@ -150,7 +158,9 @@ def _first_dependent(system: System, energy: Callable, held: NDArray) -> str:
     return system.coordinates[0].name
 
 
-def _grid(system: System, choice: str | tuple[str, ArrayLike], states: Sequence) -> tuple[int, NDArray[np.float64]]:
+def _grid(
+    system: System, choice: str | tuple[str, ArrayLike], states: Sequence
+) -> tuple[int, NDArray[np.float64]]:
     """Return the place of the chosen coordinate and the values to plot at."""
     if isinstance(choice, str):
         index = index_of(system, choice)
@@ -198,8 +208,14 @@ def _mark(ax: Axes, marks: NDArray[np.float64], stable: Sequence[bool]) -> None:
         chosen = marks[[s is kind for s in stable]] if len(marks) else marks
         if len(chosen):
             # The white rim keeps a filled mark visible on dark contours.
-            look = {**MARKS[kind], "linestyle": "", "markeredgecolor": "white" if kind else MARKS[kind]["color"]}
-            ax.plot(*chosen.T, marker="o", markersize=11.0, markeredgewidth=2.0, zorder=5, clip_on=False, **look)
+            look = {
+                **MARKS[kind],
+                "linestyle": "",
+                "markeredgecolor": "white" if kind else MARKS[kind]["color"],
+            }
+            ax.plot(
+                *chosen.T, marker="o", markersize=11.0, markeredgewidth=2.0, zorder=5, clip_on=False, **look
+            )
     kinds = sorted(set(stable), reverse=True)
     if kinds:
         ax.legend(handles=[legend_entry(kind, "o") for kind in kinds], loc="best", frameon=True)

@@ -1,4 +1,4 @@
-"""Pictures of equilibria: their poses on the drawing, and how they move with a parameter (course chapter 4)."""
+"""Pictures of equilibria: their poses on the drawing, and how they move with a parameter (chapter 4)."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from engdyn.errors import EngdynError
 from engdyn.plots.alternative import describe
 from engdyn.plots.axes import MARKS, coordinate_axis, is_stable, legend_entry, split
 from engdyn.plots.drawing import Layer, draw_layers, drawing_axes, structure
-from engdyn.plots.pen import direction
 from engdyn.plots.look import new_axes, style
+from engdyn.plots.pen import direction
 from engdyn.plots.words import number, pose, quantity, symbol, with_unit
 from engdyn.shapes import Label, Shape
 
@@ -25,15 +25,15 @@ if TYPE_CHECKING:
 
 __all__ = ["branches", "equilibrium_poses", "verdicts"]
 
-MARGIN = 76.0
-"""Room around the poses for their names, in points."""
+MARGIN, SIZE = (76.0, 44.0), 15.0
+"""Room around the poses for their names, and the size of their letters, in points."""
 
 FEW = 4
 """Up to so many poses are labeled with their coordinates; more get numbers."""
 
 
 def verdicts(system: System, equilibria: Sequence[Equilibrium]) -> list[str]:
-    """Return the stability verdict of each equilibrium, judged from the linearized equations (course chapter 5)."""
+    """Return the stability verdict of each equilibrium, from the linearized equations (chapter 5)."""
     if not equilibria:
         return []
     from engdyn.analysis.linear import linearize
@@ -77,7 +77,10 @@ def equilibrium_poses(
         raise EngdynError(f"{system.title}: no equilibrium was found, so there is no pose to draw.")
     judged = verdicts(system, equilibria) if judged is None else list(judged)
     stable = [is_stable(verdict) for verdict in judged]
-    drawn = [_without_dampers(system.shapes(np.asarray(state.q, float), dict(state.values))) for state in equilibria]
+    drawn = [
+        _without_dampers(system.shapes(np.asarray(state.q, float), dict(state.values)))
+        for state in equilibria
+    ]
     names = _names(system, equilibria, stable)
     layers = [
         Layer([*shapes, Label(at, name, side, "coordinate" if kind else "input")], dashed=not kind)
@@ -85,7 +88,7 @@ def equilibrium_poses(
     ]
     layers.sort(key=lambda layer: not layer.dashed)
     ax = drawing_axes(layers, margin=MARGIN) if ax is None else ax
-    draw_layers(ax, layers, margin=MARGIN)
+    draw_layers(ax, layers, margin=MARGIN, size=SIZE)
     parts = [
         f"{i}: {pose(system.coordinates, state.q)} ({verdict})"
         for i, (state, verdict) in enumerate(zip(equilibria, judged, strict=True), 1)
@@ -96,24 +99,31 @@ def equilibrium_poses(
 
 
 def _without_dampers(shapes: Sequence[Shape]) -> list[Shape]:
-    """Return the structure but for the dampers, which exert no force at rest and would only crowd the picture."""
+    """Return the structure but for the dampers: at rest they exert no force and crowd the picture."""
     return [shape for shape in structure(shapes) if shape.role != "damper"]
 
 
 def _names(system: System, equilibria: Sequence[Equilibrium], stable: Sequence[bool]) -> list[str]:
-    """Return a short label for each pose: the coordinates in which the poses differ, or numbers for many poses."""
+    """Return a short name for each pose: the coordinates in which they differ, or a number if many."""
     kinds = ["stable" if kind else "unstable" for kind in stable]
     if len(equilibria) > FEW:
         return [f"{i}" for i in range(1, len(equilibria) + 1)]
     q = np.array([state.q for state in equilibria], float)
     differ = np.flatnonzero(np.ptp(q, axis=0) > 1e-9)[:2]
     chosen = [system.coordinates[i] for i in differ]
-    rows = [[f"{symbol(c)} = {_short(q[k, i], c.unit)}" for i, c in zip(differ, chosen, strict=True)] for k in range(len(q))]
+    rows = [
+        [f"{symbol(c)} = {_short(q[k, i], c.unit)}" for i, c in zip(differ, chosen, strict=True)]
+        for k in range(len(q))
+    ]
     return ["\n".join([*row, kind]) for row, kind in zip(rows, kinds, strict=True)]
 
 
 def _short(value: float, unit: str) -> str:
-    return f"{number(np.degrees(value).round(1))}°" if unit == "rad" else f"{number(float(f'{value:.3g}'))} {unit}"
+    return (
+        f"{number(np.degrees(value).round(1))}°"
+        if unit == "rad"
+        else f"{number(float(f'{value:.3g}'))} {unit}"
+    )
 
 
 def _label_places(drawn: Sequence[Sequence[Shape]]) -> list[tuple[tuple[float, ...], tuple[float, float]]]:
@@ -138,7 +148,7 @@ def _center(shape: Any) -> NDArray[np.float64]:
 def branches(branch_set: BranchSet, coordinate: str, ax: Axes | None = None, *, system: System) -> Axes:
     """Plot how one coordinate of the equilibria moves with a parameter (course section 4.3).
 
-    Stable branches are solid, unstable ones broken; folds, pitchforks and transcritical points are marked and named.
+    Stable branches are solid, unstable ones broken; folds, pitchforks and transcritical points are named.
 
     Parameters
     ----------
@@ -173,6 +183,7 @@ def branches(branch_set: BranchSet, coordinate: str, ax: Axes | None = None, *, 
         for point in branch_set.points:
             _mark_point(ax, point, index)
         ax.set_xlabel(with_unit(symbol(parameter), parameter.unit))
+        ax.ticklabel_format(axis="x", scilimits=(-3, 4), useMathText=True)
         low, high = ax.get_ylim()
         coordinate_axis(ax.yaxis, system.coordinates[index], high - low)
         handles = [legend_entry(kind) for kind in (True, False) if len(_runs(branch_set, index, kind)[0])]
@@ -211,7 +222,8 @@ def _branches_in_words(branch_set: BranchSet, system: System, parameter: Any, in
         share = ("stable", "unstable", "partly stable")[_share(branch.stable)]
         text += f" From {first} to {last}: {coordinate.name} {ends}, {share}."
     for point in branch_set.points:
-        text += f" {point.kind.capitalize()} at {quantity(parameter.name, float(point.parameter), parameter.unit)}."
+        where = quantity(parameter.name, float(point.parameter), parameter.unit)
+        text += f" {point.kind.capitalize()} at {where}."
     return text
 
 

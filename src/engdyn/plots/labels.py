@@ -10,8 +10,8 @@ from matplotlib.path import Path
 from matplotlib.text import Text
 from numpy.typing import NDArray
 
-from engdyn.plots.pen import Area, Line, Words
 from engdyn.plots.look import COLORS
+from engdyn.plots.pen import Area, Line, Words
 
 __all__ = ["place"]
 
@@ -28,7 +28,9 @@ _SPACING = 3.0
 """Lines are avoided as rows of dots this many points apart."""
 
 
-def place(ax: Axes, texts: Sequence[Words], marks: Sequence[Line | Area], unit: float) -> list[Text]:
+def place(
+    ax: Axes, texts: Sequence[Words], marks: Sequence[Line | Area], unit: float, size: float = SIZE
+) -> list[Text]:
     """Write texts into axes, each at the best of some sixty places around each of its anchors.
 
     Parameters
@@ -41,6 +43,8 @@ def place(ax: Axes, texts: Sequence[Words], marks: Sequence[Line | Area], unit: 
         What should not be covered.
     unit : float
         Meters of the picture per typographic point.
+    size : float
+        Size of the letters in points.
 
     Returns
     -------
@@ -53,7 +57,7 @@ def place(ax: Axes, texts: Sequence[Words], marks: Sequence[Line | Area], unit: 
     for words in texts:
         # A label at the rim must be readable rather than cut off, hence no clipping.
         text = ax.text(0.0, 0.0, words.text, color=COLORS[words.role], ha="center", va="center", zorder=9)
-        text.set(clip_on=False, fontsize=SIZE)
+        text.set(clip_on=False, fontsize=size)
         extent = text.get_window_extent(renderer)
         center = page.settle(words, 0.5 * scale * np.array([extent.width, extent.height]) + 2.0)
         text.set_position(tuple(center * unit))
@@ -66,7 +70,9 @@ class _Page:
 
     def __init__(self, marks: Sequence[Line | Area], paper: NDArray, unit: float) -> None:
         self.paper, self.unit = paper, unit
-        self.bodies = [(Path(m.points / unit), m.level) for m in marks if isinstance(m, Area) and _large(m, unit)]
+        self.bodies = [
+            (Path(m.points / unit), m.level) for m in marks if isinstance(m, Area) and _large(m, unit)
+        ]
         self.dots = self._dots(marks)
         self.boxes = np.empty((0, 2, 2))
 
@@ -89,15 +95,23 @@ class _Page:
         return dots
 
     def settle(self, words: Words, half: NDArray) -> NDArray:
-        """Return the center of the place that covers least for a text of half size ``half``, and occupy it."""
-        centers, cost = _candidates(words, half, self.unit)
+        """Return the center where a text of half size ``half`` covers least, and occupy that place."""
+        centers, cost, whose = _candidates(words, half, self.unit)
         low, high = centers - half, centers + half
         near = np.all((self.dots > low.min(axis=0)) & (self.dots < high.max(axis=0)), axis=1)
         gaps = abs(self.dots[near][None] - centers[:, None])
-        cost = cost + 0.7 * np.all(gaps < half, axis=2).sum(axis=1)
+        # Inside a body a label may come close to the outline: there is no doubt what it belongs to.
+        on_it = np.all(centers == words.anchors[whose] / self.unit, axis=1)
+        tight = half - 3.0 * on_it[:, None]
+        cost = cost + 0.7 * np.all(gaps < tight[:, None], axis=2).sum(axis=1)
         outside = np.maximum(self.paper[0] - low, 0.0) + np.maximum(high - self.paper[1], 0.0)
         meets = (low[:, None] < self.boxes[None, :, 1]) & (high[:, None] > self.boxes[None, :, 0])
         cost = cost + 2.0 * outside.sum(axis=1) + 30.0 * np.all(meets, axis=2).sum(axis=1)
+        # Between the two ends of an arrow, the end that touches nothing is the clearer place.
+        crowd = [
+            np.count_nonzero(np.all(abs(self.dots - a) < 9.0, axis=1)) for a in words.anchors / self.unit
+        ]
+        cost = cost + 0.1 * np.array(crowd)[whose]
         if np.any(words.sides):
             inside = [path.contains_points(centers) for path, _ in self.bodies]
             cost = cost + 1.5 * np.any(np.array(inside).reshape(-1, len(centers)), axis=0)
@@ -110,20 +124,19 @@ def _large(area: Area, unit: float) -> bool:
     return bool(np.all(np.ptp(area.points, axis=0) > 12.0 * unit))
 
 
-def _candidates(words: Words, half: NDArray, unit: float) -> tuple[NDArray, NDArray]:
-    """Return centers (N, 2) in points to try, and how much each is disliked (N,)."""
+def _candidates(words: Words, half: NDArray, unit: float) -> tuple[NDArray, NDArray, NDArray]:
+    """Return centers (N, 2) to try, how much each is disliked, and which anchor it belongs to (N,)."""
     step = np.array(_STEPS)
-    centers, dislikes = [], []
+    centers, dislikes, whose = [], [], []
     for rank, (anchor, side) in enumerate(zip(words.anchors / unit, words.sides, strict=True)):
-        centered = not np.any(side)
-        if centered:
-            centers.append(anchor[None])
-            dislikes.append(np.zeros(1))
+        centered = int(not np.any(side))
         angles = (np.pi / 2 if centered else np.arctan2(side[1], side[0])) + _TURNS[:, None]
         ways = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
         # How far the box reaches from its center toward the anchor.
         reach = np.min(half / np.maximum(abs(ways), 1e-9), axis=-1)
-        far = (words.clearance + reach + step)[..., None]
-        centers.append((anchor + far * ways).reshape(-1, 2))
-        dislikes.append((0.5 * abs(_TURNS)[:, None] + 0.06 * step + 0.4 * rank + 1.0 * centered).ravel())
-    return np.vstack(centers), np.concatenate(dislikes)
+        around = (anchor + (words.clearance + reach + step)[..., None] * ways).reshape(-1, 2)
+        dislike = (0.5 * abs(_TURNS)[:, None] + 0.06 * step + 0.4 * rank + 1.0 * centered).ravel()
+        centers += [np.tile(anchor, (centered, 1)), around]
+        dislikes += [np.zeros(centered), dislike]
+        whose.append(np.full(centered + len(around), rank))
+    return np.vstack(centers), np.concatenate(dislikes), np.concatenate(whose)

@@ -1,7 +1,7 @@
 """One look for all pictures: readable from the back row, distinguishable without color vision.
 
-The colors are those proposed by Okabe and Ito (2002) for color-blind readers. Nothing is set at import time: every
-plot function works inside ``with style():`` and leaves matplotlib's settings as it found them.
+The colors are those proposed by Okabe and Ito (2002) for color-blind readers. Nothing is set at import time:
+every plot function works inside ``with style():`` and leaves matplotlib's settings as it found them.
 """
 
 from __future__ import annotations

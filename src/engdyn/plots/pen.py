@@ -1,7 +1,7 @@
 """The pen: collects the lines, areas and texts of a drawing before anything is handed to matplotlib.
 
-Lengths that serve reading (arrow heads, hatching) are given in typographic points; the pen knows how many meters of
-the picture one point is.
+Lengths that serve reading (arrow heads, hatching) are given in typographic points; the pen knows how many
+meters of the picture one point is.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Area:
-    """An area with an outline; ``fill`` names a color of ``style.FILL``, or is "role" for the color of the role."""
+    """An area with an outline; ``fill`` names a color of ``look.FILL`` or is "role" for that of the role."""
 
     points: NDArray[np.float64]
     role: str
@@ -58,8 +58,8 @@ class Area:
 class Words:
     """A text that would like to stand ``clearance`` points away from one of ``anchors`` toward its ``sides``.
 
-    Anchors (picture points) and sides (directions, zero for a text centered on its anchor) have the shape (k, 2);
-    the first is liked best.
+    Anchors (picture points) and sides (directions, zero for a text centered on its anchor) have the shape
+    (k, 2); the first is liked best.
     """
 
     text: str

@@ -36,12 +36,12 @@ class View:
         return np.array([[-sa, ca, 0.0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]])
 
     def project(self, points: ArrayLike) -> NDArray[np.float64]:
-        """Return picture points, shape (N, 2), of points in the plane (N, 2) or in space (N, 3), in meters."""
+        """Return picture points, shape (N, 2), of points in the plane (N, 2) or in space (N, 3) [m]."""
         points = np.asarray(points, float)
         return points if points.shape[-1] == 2 else points @ self.axes[:2].T
 
     def depth(self, points: ArrayLike) -> float:
-        """Mean distance of points toward the eye in meters (0 in the plane): what is nearer is drawn later."""
+        """Mean distance of points toward the eye [m] (0 in the plane): what is nearer is drawn later."""
         points = np.asarray(points, float)
         return 0.0 if points.shape[-1] == 2 else float(np.mean(points @ self.axes[2]))
 
@@ -54,7 +54,7 @@ def in_plane(vector: Point, size: int) -> NDArray[np.float64]:
 def arc(
     center: Point, radius: float, angles: ArrayLike, x_axis: Point = (1.0, 0.0), y_axis: Point = (0.0, 1.0)
 ) -> NDArray[np.float64]:
-    """Return the points ``center + radius*(x_axis*cos + y_axis*sin)`` at ``angles`` [rad]; shape (N, 2 or 3)."""
+    """Points ``center + radius*(x_axis*cos + y_axis*sin)`` at ``angles`` [rad]; shape (N, 2 or 3)."""
     size = max(len(center), len(x_axis), len(y_axis))
     origin, x, y = (in_plane(vector, size) for vector in (center, x_axis, y_axis))
     angles = np.atleast_1d(np.asarray(angles, float))[:, None]
@@ -62,7 +62,7 @@ def arc(
 
 
 def box_faces(box: Box) -> list[NDArray[np.float64]]:
-    """Return the corners of the one face (plane) or of the six faces (space) of a box, each (4, 2 or 3), in order."""
+    """Corners, in order, of the one face (plane) or the six faces (space) of a box, each (4, 2 or 3)."""
     if len(box.size) == 2:
         c, s = math.cos(box.angle), math.sin(box.angle)
         return [_face(box.center, ((c, s), (-s, c)), box.size)]

@@ -33,6 +33,9 @@ def arc_points(shape, angles: NDArray) -> NDArray[np.float64]:
     return arc(shape.center, shape.radius, angles, shape.x_axis, shape.y_axis)
 
 
+ABOVE_BODIES = LEVELS["joint"] - 0.2
+"""Rotary springs and dampers stand on the bodies they turn."""
+
 _CIRCLE = np.linspace(0.0, 2.0 * math.pi, 61)
 
 
@@ -129,7 +132,7 @@ def _(shape: shapes.Spring, pen: Pen) -> None:
 def _dashpot(slenderness: float) -> tuple[NDArray[np.float64], ...]:
     """Foot, cylinder, piston and rod along (0..1) and across (-1..1) a dashpot, its length given in widths.
 
-    A cylinder as long as a dashpot that is pulled far out would look like a tank: it is at most three widths long.
+    However far the dashpot is pulled out, its cylinder is at most three widths long.
     """
     half = min(0.21, 1.5 / max(slenderness, 1e-9))
     bottom, mouth, piston = 0.5 - half, 0.5 + half, 0.5 + 0.3 * half
@@ -162,7 +165,7 @@ def _(shape: shapes.TorsionalSpring, pen: Pen) -> None:
     angles = np.linspace(shape.start, shape.end + 4.0 * math.pi, 121)
     radii = shape.radius * np.linspace(0.3, 1.0, len(angles))
     unit = arc((0.0,) * len(shape.center), 1.0, angles, shape.x_axis, shape.y_axis)
-    pen.line(np.array(shape.center) + radii[:, None] * unit, shape.role, 1.6)
+    pen.line(np.array(shape.center) + radii[:, None] * unit, shape.role, 1.6, level=ABOVE_BODIES)
     arc_label(shape, pen, 5.0, "parameter")
 
 
@@ -172,7 +175,8 @@ def _(shape: shapes.TorsionalDamper, pen: Pen) -> None:
     unit_center = (0.0,) * len(shape.center)
     length = shape.radius * abs(shape.end - shape.start)
     if length < 3.0 * pen.unit:
-        return arc_label(shape, pen, 4.0, "parameter")
+        arc_label(shape, pen, 4.0, "parameter")
+        return
     for part, weight in zip(_dashpot(length / width), (1.8, 1.8, 2.6, 1.8), strict=True):
         # Enough points that the straight symbol follows the arc.
         fine = np.linspace(0, len(part) - 1, 12 * (len(part) - 1) + 1)
@@ -181,7 +185,7 @@ def _(shape: shapes.TorsionalDamper, pen: Pen) -> None:
             unit_center, 1.0, shape.start + along * (shape.end - shape.start), shape.x_axis, shape.y_axis
         )
         radii = shape.radius + 0.5 * width * across
-        pen.line(np.array(shape.center) + radii[:, None] * unit, shape.role, weight)
+        pen.line(np.array(shape.center) + radii[:, None] * unit, shape.role, weight, level=ABOVE_BODIES)
     arc_label(shape, pen, 0.5 * width / pen.unit + 4.0, "parameter")
 
 
@@ -228,6 +232,7 @@ def _(shape: shapes.CenterLine, pen: Pen) -> None:
     if shape.arrow:
         pen.arrow([start, end], shape.role, 1.4, 9.0)
     else:
-        # Below what it runs through: a rod on its own axis keeps its look.
-        pen.line([start, end], shape.role, 1.0, "-.", LEVELS["ground"] + 0.5)
+        # A reference line runs below bodies and rods; the zero line of a coordinate must be seen on a body.
+        level = LEVELS["ground"] + 0.5 if shape.role == "reference" else None
+        pen.line([start, end], shape.role, 1.0, "-.", level)
     pen.text(end, shape.label, shape.role, direction(end - start), 3.0)

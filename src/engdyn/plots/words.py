@@ -38,7 +38,7 @@ def pose(coordinates: Sequence[Any], q: Sequence[float]) -> str:
 
 
 def symbol(item: Any) -> str:
-    """Return the symbol of a coordinate, parameter or input as mathtext, for example ``$\\theta$``.
+    r"""Return the symbol of a coordinate, parameter or input as mathtext, for example ``$\theta$``.
 
     Names of two plain letters, such as ``zf``, are read as a letter with a subscript.
     """

@@ -1,8 +1,8 @@
 """The frame of all explorers: controls, one picture drawn again and again into the same figure, and words.
 
-An explorer is a class with five small methods: `controls` says what can be set, `model` computes (and knows nothing
-of pictures), `draw_static` and `draw_moving` draw, `words` tells. All of them are driven by ``set`` without a
-browser.
+An explorer is a class with five small methods: `controls` says what can be set, `model` computes (and knows
+nothing of pictures), `draw_static` and `draw_moving` draw, `words` tells. All of them are driven by ``set``
+without a browser.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ class Explorer(ABC):
 
     @abstractmethod
     def controls(self, chosen: Mapping[str, Any]) -> Sequence[Control]:
-        """Return the controls that fit the structural choices made so far; equal choices give equal controls."""
+        """Return the controls that fit the structural choices so far; equal choices give equal controls."""
 
     @abstractmethod
     def model(self, state: Mapping[str, Any]) -> Any:
@@ -198,12 +198,16 @@ class Explorer(ABC):
 
     def _build_frame(self) -> None:
         width = f"{round(self.size[0] * self.dpi)}px"
-        self._picture = ipywidgets.Image(format="png", layout=ipywidgets.Layout(width=width, max_width="100%"))
+        self._picture = ipywidgets.Image(
+            format="png", layout=ipywidgets.Layout(width=width, max_width="100%")
+        )
         self._line = ipywidgets.HTML()
         self._choices, self._sliders = ipywidgets.HBox(), ipywidgets.Box()
         self._choices.layout.flex_flow = "row wrap"
         self._sliders.layout = ipywidgets.Layout(flex_flow="row wrap", max_height="13em", overflow="auto")
-        self._reset = ipywidgets.Button(description="Reset", tooltip="Put all controls back to where they started")
+        self._reset = ipywidgets.Button(
+            description="Reset", tooltip="Put all controls back to where they started"
+        )
         self._reset.on_click(lambda _: self.reset())
         self.widget = ipywidgets.VBox([self._choices, self._picture, self._line, self._sliders])
 
@@ -215,7 +219,10 @@ class Explorer(ABC):
                 old, self._widgets = self._widgets, {n: c.widget(self._state[n]) for n, c in controls.items()}
                 for name, widget in self._widgets.items():
                     widget.observe(lambda change, name=name: self._moved(name, change["new"]), "value")
-                of = {kind: [w for n, w in self._widgets.items() if isinstance(controls[n], kind)] for kind in (Choice, Slider)}
+                of = {
+                    kind: [w for n, w in self._widgets.items() if isinstance(controls[n], kind)]
+                    for kind in (Choice, Slider)
+                }
                 self._choices.children = (*of[Choice], self._reset)
                 self._sliders.children = tuple(of[Slider])
                 for widget in old.values():
@@ -242,5 +249,7 @@ class Explorer(ABC):
 def _encoded(figure: Figure) -> bytes:
     """Return what the canvas shows as PNG; light compression, because speed matters more than size here."""
     stream = io.BytesIO()
-    Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB").save(stream, "png", compress_level=1)
+    Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB").save(
+        stream, "png", compress_level=1
+    )
     return stream.getvalue()

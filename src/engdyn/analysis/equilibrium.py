@@ -1,0 +1,333 @@
+"""All equilibria and steady motions of a system, with a certificate that none is missing.
+
+Course chapter 4.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from engdyn.algebra.balls import ball, is_finite, lower, upper
+from engdyn.algebra.codegen import compile_elements
+from engdyn.algebra.ring import Element
+from engdyn.analysis.enclosure import Certificate, enclose_roots
+from engdyn.analysis.steady import SteadyProblem, Unknown
+from engdyn.errors import EngdynError
+from engdyn.modeling.equations import EquationsOfMotion
+
+__all__ = ["Equilibrium", "EquilibriumSet", "equilibria"]
+
+
+@dataclass(frozen=True, eq=False)
+class Equilibrium:
+    """One equilibrium or steady motion.
+
+    Attributes
+    ----------
+    q : ndarray, shape (n,)
+        Coordinates [m, rad]; neutral ones are reported as zero.
+    speeds : ndarray, shape (m,)
+        Constant speeds u [m/s, rad/s].
+    accelerations : ndarray, shape (m,)
+        Constant accelerations u̇ [m/s², rad/s²].
+    inputs : dict
+        Inputs by name, those solved for included.
+    values : dict
+        Parameters by name [SI].
+    residual : float
+        Largest magnitude of M u̇ − f there: zero up to rounding [N, N m].
+    names : tuple of str
+        Names of the coordinates.
+    """
+
+    q: np.ndarray
+    speeds: np.ndarray
+    accelerations: np.ndarray
+    inputs: dict[str, Any]
+    values: dict[str, float]
+    residual: float
+    names: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        parts = [f"{name} = {_digits(x)}" for name, x in zip(self.names, self.q, strict=True)]
+        moving = [f"{name}' = {_digits(x)}" for name, x in zip(self.names, self.speeds, strict=False) if x]
+        moving += [f"{name}'' = {_digits(x)}" for name, x in zip(self.names, self.accelerations, strict=False) if x]
+        return f"Equilibrium({', '.join([*parts, *moving])})"
+
+
+def _digits(x: float) -> str:
+    return f"{0.0 if abs(x) < 1e-12 else x:.5g}"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class EquilibriumSet(Sequence):
+    """All equilibria that a search found, and whether they are provably all.
+
+    Attributes
+    ----------
+    certified : bool
+        Whether the search proves that there is no other equilibrium in the region.
+    undecided : tuple of boxes
+        Boxes about which the search could not decide (a bifurcation point, for example).
+    certificate : Certificate or None
+        The boxes and the proof; None where the equations were solved in closed form.
+    unknowns : tuple of str
+        What the boxes' sides are.
+    neutral : tuple of str
+        Coordinates that nothing depends on: every value of them is an equilibrium.
+    explanation : str
+        Why there is no equilibrium, where there is none.
+    """
+
+    items: tuple[Equilibrium, ...]
+    certificate: Certificate | None = None
+    unknowns: tuple[str, ...] = ()
+    neutral: tuple[str, ...] = ()
+    explanation: str = ""
+    names: tuple[str, ...] = field(default=())
+
+    @cached_property
+    def certified(self) -> bool:
+        """Whether all equilibria of the region are provably in this set."""
+        return self.certificate is None or self.certificate.certified
+
+    @property
+    def undecided(self) -> tuple:
+        """Boxes about which nothing is claimed."""
+        return () if self.certificate is None else self.certificate.undecided
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.items[index]
+
+    def __iter__(self) -> Iterator[Equilibrium]:
+        return iter(self.items)
+
+    @property
+    def _claim(self) -> str:
+        if self.explanation:
+            return self.explanation
+        if self.certified:
+            return "certified: there are no others in the region"
+        return f"not certified: {len(self.undecided)} boxes are undecided"
+
+    def __repr__(self) -> str:
+        count = f"{len(self)} equilibri{'um' if len(self) == 1 else 'a'} ({self._claim})"
+        neutral = [f"  neutral: {', '.join(self.neutral)} (reported as 0)"] if self.neutral and len(self) else []
+        return "\n".join([count, *(f"  {item!r}" for item in self), *neutral])
+
+    def _repr_html_(self) -> str:
+        head = "".join(f"<th>{name}</th>" for name in self.names)
+        rows = "".join(
+            "<tr>" + "".join(f"<td>{_digits(x)}</td>" for x in item.q) + f"<td>{item.residual:.1e}</td></tr>"
+            for item in self
+        )
+        neutral = f"; neutral: {', '.join(self.neutral)}" if self.neutral else ""
+        return (
+            f"<table><caption>{len(self)} equilibri{'um' if len(self) == 1 else 'a'} ({self._claim}){neutral}</caption>"
+            f"<thead><tr>{head}<th>residual</th></tr></thead><tbody>{rows}</tbody></table>"
+        )
+
+
+def equilibria(
+    eom: EquationsOfMotion,
+    values: Mapping[str, float],
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    inputs: Mapping[str, Any] | None = None,
+    rates: Mapping[str, float] | None = None,
+    accelerations: Mapping[str, float] | None = None,
+    free: Sequence[str] = (),
+) -> EquilibriumSet:
+    """All equilibria and steady motions in a region.
+
+    Parameters
+    ----------
+    eom : EquationsOfMotion
+    values : mapping of str to float
+        Parameters by name [SI].
+    bounds : mapping of str to (lower, upper), optional
+        Region of each unknown coordinate [m, rad].  An angle that occurs in sines and cosines alone
+        is searched over (−π, π] where nothing is given; a coordinate that occurs linearly needs no
+        bounds.  An unknown rate or acceleration of x is bounded under the name x_d or x_dd.
+    inputs : mapping, optional
+        Constant inputs, or (value, rate, acceleration); zero where not given.
+    rates, accelerations : mapping of str to float, optional
+        Prescribed constant rates and accelerations of coordinates.  For a coordinate that nothing
+        depends on, its rate is an unknown where neither is given (its acceleration, where the rate
+        has no influence).
+    free : sequence of str
+        Inputs that are solved for (the drive torque that holds a prescribed rate, say).
+
+    Returns
+    -------
+    EquilibriumSet
+        Sorted by coordinates.
+
+    Raises
+    ------
+    EngdynError
+        Equations with explicit time, missing or reversed bounds, more unknowns than equations.
+
+    Notes
+    -----
+    Course sections 4.1 to 4.4.  Roots are enclosed by interval Newton steps in ball arithmetic (see
+    :mod:`engdyn.analysis.enclosure`); parameters enter as the rationals of their decimals.
+    """
+    if not isinstance(eom, EquationsOfMotion):
+        raise EngdynError(f"eom is {eom!r}: give EquationsOfMotion, for example system.lagrange()")
+    bounds = _checked_bounds(eom, bounds)
+    problem = SteadyProblem(eom, values, inputs, rates, accelerations, free)
+    problem.eliminate_linear()
+    names = tuple(problem.names)
+    if problem.unsatisfied:
+        why = f"no equilibrium: {'; '.join(problem.unsatisfied)}"
+        return EquilibriumSet((), None, (), tuple(problem.neutral), why, names)
+    _check_count(problem)
+    if not problem.unknowns:
+        return EquilibriumSet(tuple(_complete(problem, [[]], bounds)), None, (), tuple(problem.neutral), "", names)
+    region = [_region(problem, unknown, bounds) for unknown in problem.unknowns]
+    periodic = [i for i, u in enumerate(problem.unknowns) if _is_periodic(problem, u, region[i])]
+    certificate = enclose_roots(*_ball_functions(problem), region, periodic=periodic)
+    found = _complete(problem, [[ball(*side) for side in root] for root in certificate.roots], bounds)
+    labels = tuple(u.name for u in problem.unknowns)
+    return EquilibriumSet(tuple(found), certificate, labels, tuple(problem.neutral), "", names)
+
+
+def _checked_bounds(eom: EquationsOfMotion, bounds: Mapping[str, tuple[float, float]] | None) -> dict[str, tuple[float, float]]:
+    names = [q.func.__name__ for q in eom.coordinates]
+    accepted = {*names, *(f"{n}{d}" for n in names for d in ("_d", "_dd")), *(w.func.__name__ for w in eom.inputs)}
+    found = {}
+    for name, pair in dict(bounds or {}).items():
+        if name not in accepted:
+            raise EngdynError(f"bounds names {name!r}: the coordinates are {', '.join(names)}")
+        try:
+            low, high = (float(x) for x in pair)
+        except (TypeError, ValueError) as error:
+            raise EngdynError(f"bounds[{name!r}] is {pair!r}: give (lower, upper)") from error
+        if not (math.isfinite(low) and math.isfinite(high)):
+            raise EngdynError(f"bounds[{name!r}] = ({low}, {high}): both ends must be finite")
+        if low >= high:
+            raise EngdynError(f"bounds[{name!r}] = ({low:g}, {high:g}) are reversed: the lower end comes first")
+        found[name] = (low, high)
+    return found
+
+
+def _check_count(problem: SteadyProblem) -> None:
+    rows, unknowns = len(problem.rows), [u.name for u in problem.unknowns]
+    if rows == len(unknowns):
+        return
+    counted = f"{rows} equations for the {len(unknowns)} unknowns {', '.join(unknowns) or '(none)'}"
+    if rows < len(unknowns):
+        raise EngdynError(f"{counted}: prescribe a rate or an acceleration, or name fewer free inputs")
+    raise EngdynError(f"{counted}: name an input in free that holds the prescribed motion, or prescribe less")
+
+
+def _region(problem: SteadyProblem, unknown: Unknown, bounds: Mapping[str, tuple[float, float]]) -> tuple[float, float]:
+    if unknown.name in bounds:
+        return bounds[unknown.name]
+    if unknown.name in problem.names and _only_in_angles(problem, unknown):
+        return (-math.pi, math.pi)
+    raise EngdynError(f"give bounds for {unknown.name}: bounds={{{unknown.name!r}: (lower, upper)}}")
+
+
+def _only_in_angles(problem: SteadyProblem, unknown: Unknown) -> bool:
+    """Whether an unknown occurs nowhere but in sines and cosines of whole multiples of itself."""
+    ring = problem.ring
+    at = ring.index[unknown.key]
+    used = {i for row in problem.rows for i in row.generators()}
+    if at in used:
+        return False
+    for i in used & set(ring.definitions):
+        definition = ring.definitions[i]
+        plain = definition.kind in ("sine", "cosine") and ring.keys[i][1:] == (unknown.key[1], 1)
+        if not plain and unknown.key in problem.contents(definition.arguments):
+            return False
+    return True
+
+
+def _is_periodic(problem: SteadyProblem, unknown: Unknown, region: tuple[float, float]) -> bool:
+    whole = abs(region[1] - region[0] - 2 * math.pi) < 1e-9
+    return whole and unknown.name in problem.names and _only_in_angles(problem, unknown)
+
+
+def _ball_functions(problem: SteadyProblem) -> tuple[Callable, Callable]:
+    """The rows and their Jacobian as functions of balls."""
+    partials = [problem.ring.partial(u.key) for u in problem.unknowns]
+    n = len(partials)
+    function = _on_balls(problem, problem.rows)
+    slopes = _on_balls(problem, [partial(row) for row in problem.rows for partial in partials])
+
+    def jacobian(z: list[Any]) -> list[list[Any]]:
+        flat = slopes(z)
+        return [list(flat[i * n : (i + 1) * n]) for i in range(n)]
+
+    return function, jacobian
+
+
+def _on_balls(problem: SteadyProblem, elements: Sequence[Element]) -> Callable[[list[Any]], tuple]:
+    constants = [ball(value) for value in problem.constants.values()]
+    keys = [*(u.key for u in problem.unknowns), *problem.constants]
+    compiled = compile_elements(elements, keys, "balls")
+    return lambda z: compiled(*z, *constants)
+
+
+def _complete(
+    problem: SteadyProblem, roots: Sequence[list[Any]], bounds: Mapping[str, tuple[float, float]]
+) -> list[Equilibrium]:
+    """Equilibria from enclosures of the unknowns: eliminated unknowns added, bounds and inertia checked."""
+    follow = _on_balls(problem, [e for _, e in problem.eliminated]) if problem.eliminated else lambda z: ()
+    found = []
+    for z in roots:
+        solution = dict(zip((u.name for u in problem.unknowns), z, strict=True))
+        solution |= dict(zip((u.name for u, _ in problem.eliminated), follow(z), strict=True))
+        if any(not _inside(solution[name], bounds[name]) for name in solution if name in bounds):
+            continue
+        equilibrium = _equilibrium(problem, {name: _middle(b) for name, b in solution.items()})
+        if equilibrium is not None:
+            found.append(equilibrium)
+    return sorted(found, key=lambda e: tuple(np.round(e.q, 9)))
+
+
+def _middle(b: Any) -> float:
+    return 0.5 * (lower(b) + upper(b))
+
+
+def _inside(b: Any, bounds: tuple[float, float]) -> bool:
+    """Whether an enclosed value lies within bounds or on their edge."""
+    return not is_finite(b) or not (upper(b) < bounds[0] or lower(b) > bounds[1])
+
+
+def _equilibrium(problem: SteadyProblem, solution: Mapping[str, float]) -> Equilibrium | None:
+    """The equilibrium of a solution, None where the mass matrix is singular (a false root)."""
+    eom, names = problem.eom, problem.names
+    q = np.array([solution.get(name, 0.0) for name in names])
+    owners = [u.expr.func.__name__ if u.is_Derivative else u.func.__name__ for u in eom.speeds]
+    speeds = np.array([solution.get(f"{n}_d", float(problem.rates.get(n, 0))) for n in owners])
+    udot = np.array([solution.get(f"{n}_dd", float(problem.accelerations.get(n, 0))) for n in owners])
+    inputs = {**problem.inputs, **{key[1].func.__name__: solution[key[1].func.__name__] for key in problem.free}}
+    values = {p.name: float(problem.values[p.name]) for p in eom.parameters} | dict(problem.values)
+    mass, force = _numbers_at(eom, q, speeds, values, inputs)
+    scale = np.prod(np.linalg.norm(mass, axis=1)) or 1.0
+    if abs(np.linalg.det(mass)) < 1e-12 * scale:
+        return None
+    residual = float(np.max(np.abs(mass @ udot - force), initial=0.0))
+    return Equilibrium(q, speeds, udot, inputs, values, residual, tuple(names))
+
+
+def _numbers_at(
+    eom: EquationsOfMotion, q: np.ndarray, u: np.ndarray, values: Mapping[str, float], inputs: Mapping[str, Any]
+) -> tuple[np.ndarray, np.ndarray]:
+    """M and f at a state."""
+    from engdyn.modeling.numbers import input_values, parameter_values
+
+    m = len(eom.speeds)
+    flat = eom.compiled("math")(*q.tolist(), *u.tolist(), *parameter_values(eom, values), *input_values(eom, inputs, values), 0.0)
+    return np.array(flat[: m * m], dtype=float).reshape(m, m), np.array(flat[m * m : m * m + m], dtype=float)

@@ -1,0 +1,242 @@
+"""Explorer of equilibria: all poses on the drawing, and how they move with a parameter (chapter 4)."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from engdyn.errors import EngdynError
+from engdyn.plots.axes import MARKS, is_stable
+from engdyn.plots.equilibria import branches, equilibrium_poses, verdicts
+from engdyn.plots.words import number
+from engdyn.system import System
+from engdyn.systems.library import catalogue, load
+from engdyn.widgets.controls import Choice, Control, Slider
+from engdyn.widgets.explorer import Explorer
+
+if TYPE_CHECKING:
+    from engdyn.analysis.branches import BranchSet
+    from engdyn.analysis.equilibrium import Equilibrium
+    from engdyn.system import Parameter
+
+__all__ = ["EquilibriumExplorer", "Found", "equilibrium", "find", "follow", "slider"]
+
+INTERESTING = ("rad/s", "m/s", "N m/rad", "N/m", "rad", "m")
+"""Units of the parameter that is followed at first: speeds split equilibria, stiffnesses come next."""
+
+MANY = 6
+"""So many equilibria are told one by one."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """Equilibria of a system at one set of values, judged."""
+
+    states: tuple[Equilibrium, ...]
+    verdicts: tuple[str, ...]
+    certified: bool
+    undecided: int
+    branches: BranchSet | None
+    trouble: str
+
+
+def slider(parameter: Parameter) -> Slider:
+    """Return a slider for a parameter: 0 (what must be positive: 0.2) to 2.5 times the default.
+
+    A default of zero tells no scale: such a parameter goes up to 10 in its unit, or from -10 if it may be
+    negative.
+    """
+    default = float(parameter.default)
+    if default == 0.0:
+        low, high = (-10.0 if parameter.admissible == "any" else 0.0), 10.0
+    else:
+        low, high = sorted((0.2 * default if parameter.admissible == "positive" else 0.0, 2.5 * default))
+    return Slider(parameter.name, low, high, default, parameter.unit, parameter.meaning)
+
+
+def find(system: System, values: Mapping[str, float]) -> tuple[Any, list[str]]:
+    """Return all equilibria at these values and the stability verdict of each."""
+    found = system.equilibria(values)
+    return found, verdicts(system, found)
+
+
+def follow(
+    system: System, values: Mapping[str, float], parameter: str, limits: tuple[float, float]
+) -> BranchSet:
+    """Return the branches of equilibria over one parameter."""
+    from engdyn.analysis.branches import continue_equilibria
+
+    return continue_equilibria(system.equations, values, parameter, limits)
+
+
+class EquilibriumExplorer(Explorer):
+    """See `equilibrium`."""
+
+    title = "Equilibria"
+    structural = ("system",)
+
+    def __init__(self, system: str | int | System = "S07", **values: Any) -> None:
+        self._own = {system.key: system} if isinstance(system, System) else {}
+        self._systems: dict[str, System] = {}
+        self._follow = lru_cache(maxsize=16)(self._follow_anew)
+        super().__init__(system=system.key if isinstance(system, System) else _name(system), **values)
+
+    def set(self, **values: Any) -> None:
+        if "system" in values and values["system"] not in self._own:
+            values["system"] = _name(values["system"])
+        super().set(**values)
+
+    def system(self, name: str) -> System:
+        """Return the system behind a choice."""
+        if name not in self._systems:
+            self._systems[name] = self._own[name] if name in self._own else load(name)
+        return self._systems[name]
+
+    def controls(self, chosen: Mapping[str, Any]) -> Sequence[Control]:
+        own = [(system.title, key) for key, system in self._own.items()]
+        known = [(f"{name} {row.title}", name) for name, row in _catalogue().iterrows()]
+        options = (*own, *known)
+        choice = Choice("system", options, options[0][1], "system whose equilibria are shown")
+        if "system" not in chosen:
+            return [choice]
+        system = self.system(chosen["system"])
+        names = tuple((f"{p.name} ({p.meaning})", p.name) for p in system.parameters)
+        shown = [c for c in system.coordinates if c.kind != "ignorable"] or system.coordinates
+        seen = tuple((f"{c.name} ({c.meaning})", c.name) for c in shown)
+        return [
+            choice,
+            Choice("over", names, _interesting(system), "parameter along which the equilibria are followed"),
+            Choice("coordinate", seen, seen[0][1], "coordinate that the diagram shows"),
+            *(slider(p) for p in system.parameters),
+        ]
+
+    def model(self, state: Mapping[str, Any]) -> Found:
+        system, values = self.system(state["system"]), self._values(state)
+        found, judged = find(system, values)
+        branch_set, trouble = self._follow(*self._branch_key(state))
+        states, undecided = tuple(found), len(found.undecided)
+        return Found(states, tuple(judged), found.certified, undecided, branch_set, trouble)
+
+    def _values(self, state: Mapping[str, Any]) -> dict[str, float]:
+        return {p.name: state[p.name] for p in self.system(state["system"]).parameters}
+
+    def _branch_key(self, state: Mapping[str, Any]) -> tuple:
+        others = tuple((n, v) for n, v in self._values(state).items() if n != state["over"])
+        return state["system"], state["over"], others
+
+    def _follow_anew(self, name: str, over: str, others: tuple) -> tuple[BranchSet | None, str]:
+        system = self.system(name)
+        control = slider(next(p for p in system.parameters if p.name == over))
+        try:
+            values = {**dict(others), over: control.value}
+            return follow(system, values, over, (control.low, control.high)), ""
+        except (EngdynError, ArithmeticError, np.linalg.LinAlgError) as error:
+            return None, str(error)
+
+    def static_key(self, state: Mapping[str, Any], result: Found) -> Hashable:
+        return (*self._branch_key(state), state["coordinate"])
+
+    def draw_static(self, figure: Figure, state: Mapping[str, Any], result: Found) -> None:
+        figure.add_axes((0.0, 0.0, 0.47, 1.0)).set_axis_off()
+        right = figure.add_axes((0.57, 0.17, 0.40, 0.77))
+        if result.branches is None:
+            right.set_axis_off()
+            right.text(0.5, 0.5, f"No branch diagram: {result.trouble}", ha="center", va="center", wrap=True)
+        else:
+            branches(result.branches, state["coordinate"], right, system=self.system(state["system"]))
+
+    def draw_moving(self, figure: Figure, state: Mapping[str, Any], result: Found) -> Iterable[Artist]:
+        left, right = figure.axes
+        if result.states:
+            equilibrium_poses(self.system(state["system"]), result.states, left, judged=result.verdicts)
+        else:
+            left.text(0.5, 0.5, "no equilibrium", ha="center", va="center", transform=left.transAxes)
+        poses = sorted([*left.collections, *left.texts], key=Artist.get_zorder)
+        marks = self._marks(right, state, result) if result.branches is not None else []
+        for artist in (*poses, *marks):
+            artist.set_animated(True)
+        return [*poses, *marks]
+
+    def _marks(self, ax: Axes, state: Mapping[str, Any], result: Found) -> list[Artist]:
+        """Mark the present value and the equilibria there."""
+        index = [c.name for c in self.system(state["system"]).coordinates].index(state["coordinate"])
+        here = state[state["over"]]
+        marks = [ax.axvline(here, color="black", linewidth=1.2, linestyle=":")]
+        for found, verdict in zip(result.states, result.verdicts, strict=True):
+            look = {**MARKS[is_stable(verdict)], "linestyle": ""}
+            marks += ax.plot([here], [found.q[index]], marker="o", markeredgewidth=2.0, clip_on=False, **look)
+        return marks
+
+    def words(self, state: Mapping[str, Any], result: Found) -> str:
+        system = self.system(state["system"])
+        shown = [i for i, c in enumerate(system.coordinates) if c.kind != "ignorable"]
+        told = []
+        for found, verdict in zip(result.states[:MANY], result.verdicts, strict=False):
+            pose = ", ".join(
+                f"{system.coordinates[i].name} = {_value(found.q[i], system.coordinates[i].unit)}"
+                for i in shown
+            )
+            told.append(f"{pose} ({verdict})")
+        count = len(result.states)
+        text = f"{count} equilibri{'um' if count == 1 else 'a'}" + (": " + "; ".join(told) if told else "")
+        text += f"; and {count - MANY} more" if count > MANY else ""
+        return f"{system.title}, {state['over']} = {number(state[state['over']])}: {text}.{_doubt(result)}"
+
+
+def _value(value: float, unit: str) -> str:
+    rounded = float(f"{value:.3g}") if abs(value) > 1e-9 else 0.0
+    return number(rounded) + (f" {unit}" if rounded else "")
+
+
+def _doubt(result: Found) -> str:
+    if result.certified:
+        return ""
+    regions = f"{result.undecided} region{'' if result.undecided == 1 else 's'} could not be decided"
+    return f" Not certified to be all: {regions}." if result.undecided else " Not certified to be all."
+
+
+@lru_cache(maxsize=1)
+def _catalogue() -> Any:
+    return catalogue()
+
+
+def _name(system: Any) -> str:
+    """Return ``"S07"`` for whatever names that system of the catalogue."""
+    return f"S{load(system).number:02d}"
+
+
+def _interesting(system: System) -> str:
+    """Return the parameter to follow at first."""
+    names = {unit: p.name for unit in INTERESTING for p in reversed(system.parameters) if p.unit == unit}
+    return next(iter(names.values()), system.parameters[0].name)
+
+
+def equilibrium(system: str | int | System = "S07", **values: float) -> EquilibriumExplorer:
+    """Explore the equilibria of a system: poses on the left, branches over one parameter on the right.
+    Course sections 4.1 to 4.4. Controls: ``system``, ``over`` (the parameter to follow), ``coordinate`` (what
+    the diagram shows) and a slider for every parameter of the system.
+
+    Parameters
+    ----------
+    system : str, int or System
+        A system of the catalogue by number or key, or a System of one's own.
+    **values : float
+        Parameter values in SI units to start from.
+
+    Returns
+    -------
+    EquilibriumExplorer
+
+    Raises
+    ------
+    EngdynError
+        A value that its slider does not reach; UnknownSystemError for a system that does not exist.
+    """
+    return EquilibriumExplorer(system, **values)
