@@ -10,6 +10,7 @@ import contextlib
 import hashlib
 import json
 import os
+import re
 import shutil
 import socket
 import subprocess
@@ -36,13 +37,17 @@ FLAGS = [
 ]
 PATIENCE = 120_000  # ms for a page or a whole notebook, on a machine with other things to do
 CODE_CELLS = ".jp-NotebookPanel:not(.lm-mod-hidden) .jp-CodeCell"
-ERRORS = f"{CODE_CELLS} [data-mime-type='application/vnd.jupyter.error']"
-# Every code cell has a number, or is empty: neither waiting, nor running, nor never run.
-ALL_RAN = f"""() => {{
-    const cells = [...document.querySelectorAll("{CODE_CELLS}")];
-    const prompt = cell => cell.querySelector(".jp-InputPrompt").textContent;
-    const code = cell => cell.querySelector(".cm-content").textContent.trim();
-    return cells.length > 0 && cells.every(cell => /\\[\\d+\\]/.test(prompt(cell)) || code(cell) === "");
+# JupyterLab gives errors the same type as text on stderr; only errors tell where they come from.
+STDERR = f"{CODE_CELLS} [data-mime-type='application/vnd.jupyter.stderr']"
+SIGNS_OF_ERROR = ("Traceback (most recent call last)", "SyntaxError", "IndentationError")
+# The prompts of the cells that hold code: "[ ]:" never ran, "[*]:" waits or runs, "[3]:" ran.
+PROMPTS = f"""() => [...document.querySelectorAll("{CODE_CELLS}")]
+    .filter(cell => cell.querySelector(".cm-content").textContent.trim() !== "")
+    .map(cell => cell.querySelector(".jp-InputPrompt").textContent)"""
+NOTHING_RAN = f"() => ({PROMPTS})().every(prompt => !/\\d|\\*/.test(prompt))"
+RUN_ENDED = f"""() => {{
+    const prompts = ({PROMPTS})();
+    return prompts.some(prompt => /\\d/.test(prompt)) && !prompts.some(prompt => prompt.includes("*"));
 }}"""
 
 
@@ -136,12 +141,14 @@ class LabPage:
         self.page.wait_for_selector(CODE_CELLS)
 
     def run_all(self) -> None:
-        """Clear what is stored, run every cell from the menu, and wait until all of them ran."""
+        """Restart the kernel, drop all outputs, run every cell, and wait until the last one or an error."""
         self.page.locator(CODE_CELLS).first.locator(".cm-content").click()
-        self._menu("Edit", "editmenu:clear-all")
-        self.page.wait_for_function(f"() => !({ALL_RAN})()")
+        self._menu("Kernel", "kernelmenu:restart-and-clear")
+        self.page.locator(".jp-Dialog .jp-mod-accept").click()
+        self.page.wait_for_function(NOTHING_RAN)
+        self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]")
         self._menu("Run", "runmenu:run-all")
-        self.page.wait_for_function(f'() => ({ALL_RAN})() || document.querySelector("{ERRORS}")')
+        self.page.wait_for_function(RUN_ENDED)
         self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]")
 
     def _menu(self, title: str, command: str) -> None:
@@ -149,8 +156,11 @@ class LabPage:
         self.page.locator(f".lm-Menu-item[data-command='{command}']").click()
 
     def errors(self) -> list[str]:
-        """Text of every error that a cell shows."""
-        return [text.strip() for text in self.page.locator(ERRORS).all_inner_texts()]
+        """Text of every error that a cell shows, and every cell that did not run."""
+        texts = self.page.locator(STDERR).all_inner_texts()
+        found = [text.strip() for text in texts if any(sign in text for sign in SIGNS_OF_ERROR)]
+        prompts = enumerate(self.page.evaluate(PROMPTS), start=1)
+        return found + [f"code cell {k} did not run" for k, prompt in prompts if not re.search(r"\d", prompt)]
 
     def step_first_slider(self, key: str = "ArrowRight") -> tuple[str, str, float]:
         """Press a key on the first slider that stands with a picture.

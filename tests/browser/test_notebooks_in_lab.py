@@ -55,8 +55,9 @@ def test_the_session_sees_an_error(lab_page):
         _put(lab_page.lab, "error.ipynb", "x = 1", "raise ValueError('seen by the student')", "y = 2")
     )
     lab_page.run_all()
-    (error,) = lab_page.errors()
+    error, stopped = lab_page.errors()
     assert "seen by the student" in error
+    assert stopped == "code cell 3 did not run"
 
 
 def test_chapter_4_runs_and_its_slider_moves_the_picture(lab_page):

@@ -20,6 +20,7 @@ from engdyn.analysis.enclosure import Certificate, enclose_roots
 from engdyn.analysis.steady import SteadyProblem, Unknown
 from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
+from engdyn.modeling.numbers import mass_and_force
 
 __all__ = ["Equilibrium", "EquilibriumSet", "equilibria"]
 
@@ -314,20 +315,9 @@ def _equilibrium(problem: SteadyProblem, solution: Mapping[str, float]) -> Equil
     udot = np.array([solution.get(f"{n}_dd", float(problem.accelerations.get(n, 0))) for n in owners])
     inputs = {**problem.inputs, **{key[1].func.__name__: solution[key[1].func.__name__] for key in problem.free}}
     values = {p.name: float(problem.values[p.name]) for p in eom.parameters} | dict(problem.values)
-    mass, force = _numbers_at(eom, q, speeds, values, inputs)
+    mass, force = mass_and_force(eom, q, speeds, values, inputs)
     scale = np.prod(np.linalg.norm(mass, axis=1)) or 1.0
     if abs(np.linalg.det(mass)) < 1e-12 * scale:
         return None
     residual = float(np.max(np.abs(mass @ udot - force), initial=0.0))
     return Equilibrium(q, speeds, udot, inputs, values, residual, tuple(names))
-
-
-def _numbers_at(
-    eom: EquationsOfMotion, q: np.ndarray, u: np.ndarray, values: Mapping[str, float], inputs: Mapping[str, Any]
-) -> tuple[np.ndarray, np.ndarray]:
-    """M and f at a state."""
-    from engdyn.modeling.numbers import input_values, parameter_values
-
-    m = len(eom.speeds)
-    flat = eom.compiled("math")(*q.tolist(), *u.tolist(), *parameter_values(eom, values), *input_values(eom, inputs, values), 0.0)
-    return np.array(flat[: m * m], dtype=float).reshape(m, m), np.array(flat[m * m : m * m + m], dtype=float)

@@ -15,7 +15,7 @@ from engdyn.errors import EngdynError
 if TYPE_CHECKING:
     from engdyn.modeling.equations import EquationsOfMotion
 
-__all__ = ["accelerations", "input_values", "parameter_values", "state_derivative"]
+__all__ = ["accelerations", "input_values", "mass_and_force", "parameter_values", "state_derivative"]
 
 
 def parameter_values(eom: EquationsOfMotion, values: Mapping[str, float]) -> list[float]:
@@ -47,10 +47,9 @@ def input_values(
     """
     given = dict(inputs or {})
     known = {w.func.__name__: w for w in eom.inputs}
-    accepted = {*known, *getattr(eom, "accepted_inputs", ())}
     for name in given:
-        if name not in accepted:
-            raise EngdynError(f"unknown input {name!r}: the equations have {', '.join(sorted(accepted)) or 'none'}")
+        if name not in known:
+            raise EngdynError(f"unknown input {name!r}: the equations have {', '.join(sorted(known)) or 'none'}")
     found: list[float] = []
     for name, function in known.items():
         if name in given:
@@ -103,6 +102,16 @@ def accelerations(
             "singularity, or a mass of zero); choose another state, other coordinates or masses"
         )
     return found
+
+
+def mass_and_force(
+    eom: EquationsOfMotion, q: Any, u: Any, values: Mapping[str, float], inputs: Mapping[str, Any] | None
+) -> tuple[np.ndarray, np.ndarray]:
+    """M, shape (m, m), and f, shape (m,), at one state."""
+    m = len(eom.speeds)
+    rest = [*parameter_values(eom, values), *input_values(eom, inputs, values), 0.0]
+    flat = eom.compiled("math")(*(float(x) for x in (*q, *u)), *rest)
+    return np.array(flat[: m * m], dtype=float).reshape(m, m), np.array(flat[m * m : m * m + m], dtype=float)
 
 
 def _states(eom: EquationsOfMotion, q: Any, u: Any) -> tuple[np.ndarray, np.ndarray]:

@@ -198,12 +198,23 @@ def _runs(branch_set: BranchSet, index: int, kind: bool) -> tuple[NDArray[np.flo
     """Return all stretches of one stability as one line, interrupted by NaN."""
     across, up = [], []
     for branch in branch_set:
-        stable = np.asarray(branch.stable, bool)
+        stable = _judged(branch, branch_set)
         for run in split(stable):
             if stable[run.start] == kind:
                 across += [np.asarray(branch.parameter, float)[run], [np.nan]]
                 up += [np.asarray(branch.q, float)[run, index], [np.nan]]
     return np.concatenate([*across, []]), np.concatenate([*up, []])
+
+
+def _judged(branch: Any, branch_set: BranchSet) -> NDArray[np.bool_]:
+    """Return the stability along a branch; the marginal states where branches meet take that of their neighbors."""
+    stable = np.array(branch.stable, bool)
+    parameter, q = np.asarray(branch.parameter, float), np.asarray(branch.q, float)
+    for point in branch_set.points:
+        apart = abs(parameter - point.parameter) / np.ptp(parameter) + np.max(abs(q - point.q), axis=1)
+        for i in np.flatnonzero(apart < 1e-6):
+            stable[i] = stable[i + 1] if i + 1 < len(stable) else stable[i - 1]
+    return stable
 
 
 def _mark_point(ax: Axes, point: Any, index: int) -> None:
@@ -219,13 +230,10 @@ def _branches_in_words(branch_set: BranchSet, system: System, parameter: Any, in
     for branch in branch_set:
         first, last = (quantity(parameter.name, float(branch.parameter[i]), parameter.unit) for i in (0, -1))
         ends = " to ".join(number(float(branch.q[i][index])) for i in (0, -1))
-        share = ("stable", "unstable", "partly stable")[_share(branch.stable)]
+        stable = _judged(branch, branch_set)
+        share = "stable" if stable.all() else ("partly stable" if stable.any() else "unstable")
         text += f" From {first} to {last}: {coordinate.name} {ends}, {share}."
     for point in branch_set.points:
         where = quantity(parameter.name, float(point.parameter), parameter.unit)
         text += f" {point.kind.capitalize()} at {where}."
     return text
-
-
-def _share(stable: Sequence[bool]) -> int:
-    return 0 if all(stable) else (2 if any(stable) else 1)

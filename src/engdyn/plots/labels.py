@@ -50,15 +50,14 @@ def place(
     -------
     list of matplotlib.text.Text
     """
-    root = ax.get_figure(root=True)
-    renderer, scale = root.canvas.get_renderer(), 72.0 / root.dpi
+    scale = 72.0 / ax.get_figure(root=True).dpi
     page = _Page(marks, np.array([ax.get_xlim(), ax.get_ylim()]).T / unit, unit)
     written = []
     for words in texts:
         # A label at the rim must be readable rather than cut off, hence no clipping.
         text = ax.text(0.0, 0.0, words.text, color=COLORS[words.role], ha="center", va="center", zorder=9)
         text.set(clip_on=False, fontsize=size)
-        extent = text.get_window_extent(renderer)
+        extent = text.get_window_extent()
         center = page.settle(words, 0.5 * scale * np.array([extent.width, extent.height]) + 2.0)
         text.set_position(tuple(center * unit))
         written.append(text)

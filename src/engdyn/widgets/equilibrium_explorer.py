@@ -73,7 +73,8 @@ def follow(
     """Return the branches of equilibria over one parameter."""
     from engdyn.analysis.branches import continue_equilibria
 
-    return continue_equilibria(system.equations, values, parameter, limits)
+    steady = system._steady(dict(values), {}) if system._steady else {}
+    return continue_equilibria(system.equations, values, parameter, limits, bounds=system.bounds, **steady)
 
 
 class EquilibriumExplorer(Explorer):

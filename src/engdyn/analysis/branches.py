@@ -1,0 +1,200 @@
+"""Branches of equilibria over a parameter: followed around folds and through branch points.
+
+Course section 4.3.  Pseudo-arclength continuation after H. B. Keller (in *Applications of
+Bifurcation Theory*, 1977); the classification of singular points after Govaerts, *Numerical Methods
+for Bifurcations of Dynamical Equilibria* (2000).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from engdyn.analysis.continuation import Curve, Family, trace
+from engdyn.analysis.equilibrium import equilibria
+from engdyn.analysis.linear import assemble, block_shapes, compiled_blocks, sorted_eigenvalues
+from engdyn.analysis.stability import neutral_eigenvalues, verdict_of
+from engdyn.errors import EngdynError
+from engdyn.modeling.equations import EquationsOfMotion
+from engdyn.modeling.numbers import input_values, parameter_values
+
+__all__ = ["Branch", "BranchPoint", "BranchSet", "continue_equilibria"]
+
+
+@dataclass(frozen=True, eq=False)
+class Branch:
+    """A family of equilibria over the parameter.
+
+    Attributes
+    ----------
+    parameter : ndarray, shape (N,)
+        Values of the parameter [SI], in the order in which the branch was followed.
+    q : ndarray, shape (N, n)
+        Coordinates [m, rad].
+    stable : ndarray of bool, shape (N,)
+        Whether each equilibrium is asymptotically stable (neutral directions apart).
+    """
+
+    parameter: np.ndarray
+    q: np.ndarray
+    stable: np.ndarray
+
+    def __repr__(self) -> str:
+        share = "stable" if self.stable.all() else "unstable" if not self.stable.any() else "partly stable"
+        return f"Branch({len(self.parameter)} points, {self.parameter.min():.5g} to {self.parameter.max():.5g}, {share})"
+
+
+@dataclass(frozen=True, eq=False)
+class BranchPoint:
+    """A point where equilibria meet.
+
+    Attributes
+    ----------
+    kind : {"fold", "pitchfork", "transcritical"}
+    parameter : float
+        Value of the parameter [SI].
+    q : ndarray, shape (n,)
+        Coordinates [m, rad].
+    """
+
+    kind: str
+    parameter: float
+    q: np.ndarray
+
+    def __repr__(self) -> str:
+        return f"{self.kind} at {self.parameter:.6g}, q = {np.round(self.q, 6).tolist()}"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class BranchSet(Sequence):
+    """Branches over one parameter and the points where they meet.
+
+    Attributes
+    ----------
+    parameter : str
+        Name of the varied parameter.
+    range : (float, float)
+    points : tuple of BranchPoint
+    coordinates : tuple of str
+    """
+
+    items: tuple[Branch, ...]
+    points: tuple[BranchPoint, ...]
+    parameter: str
+    range: tuple[float, float]
+    coordinates: tuple[str, ...]
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.items[index]
+
+    def __repr__(self) -> str:
+        head = f"{len(self)} branch{'es' if len(self) != 1 else ''} over {self.parameter}"
+        return "\n".join([head, *(f"  {item!r}" for item in (*self.items, *self.points))])
+
+
+def continue_equilibria(
+    eom: EquationsOfMotion,
+    values: Mapping[str, float],
+    parameter: str,
+    range: tuple[float, float],
+    *,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    inputs: Mapping[str, Any] | None = None,
+    rates: Mapping[str, float] | None = None,
+    accelerations: Mapping[str, float] | None = None,
+    free: Sequence[str] = (),
+    starts: int = 5,
+) -> BranchSet:
+    """Follow all equilibria while one parameter varies.
+
+    Parameters
+    ----------
+    eom, values, bounds, inputs, rates, accelerations, free :
+        As in :func:`engdyn.equilibria`.
+    parameter : str
+        Name of the parameter that varies.
+    range : (float, float)
+        First and last value of it [SI].
+    starts : int
+        Number of parameter values, evenly spaced, at which all equilibria are searched for to
+        start from; closed loops of equilibria between them could be missed.
+
+    Returns
+    -------
+    BranchSet
+        Branches with their stability; folds, pitchforks and transcritical points located.
+
+    Raises
+    ------
+    EngdynError
+        Unknown parameter, a reversed or infinite range.
+
+    Notes
+    -----
+    Course section 4.3.
+    """
+    low, high = _checked_range(eom, parameter, range)
+    steady = {"inputs": inputs, "rates": rates, "accelerations": accelerations, "free": free}
+    family = Family(eom, values, parameter, (low, high), bounds, steady)
+    seeds = []
+    for value in np.linspace(low, high, max(int(starts), 2)):
+        found = equilibria(eom, {**values, parameter: float(value)}, bounds, **steady)
+        seeds += [(float(value), family.unknown_part(e)) for e in found]
+    curves, singular = trace(family, seeds)
+    ends = [np.append(z, at) for _, at, z in singular]
+    branches = tuple(_branch(family, curve, ends) for curve in curves)
+    points = tuple(BranchPoint(kind, at, family.coordinates(z, at)) for kind, at, z in singular)
+    return BranchSet(branches, points, parameter, (low, high), tuple(family.names))
+
+
+def _checked_range(eom: EquationsOfMotion, parameter: str, range: Any) -> tuple[float, float]:
+    known = [p.name for p in eom.parameters]
+    if parameter not in known:
+        raise EngdynError(f"unknown parameter {parameter!r}: the equations have {', '.join(known)}")
+    try:
+        low, high = (float(x) for x in range)
+    except (TypeError, ValueError) as error:
+        raise EngdynError(f"range is {range!r}: give (first, last) value of {parameter}") from error
+    if not (np.isfinite(low) and np.isfinite(high) and low < high):
+        raise EngdynError(f"range is ({low:g}, {high:g}): give two finite values, the smaller one first")
+    return low, high
+
+
+def _branch(family: Family, curve: Curve, singular: Sequence[np.ndarray]) -> Branch:
+    """A branch with the stability of each of its points; an end on a branch point follows its neighbor."""
+    parameter = np.array([at for at, _ in curve])
+    states = [family.equilibrium(z, at) for at, z in curve]
+    stable = _stable(family, states)
+    for end, neighbor in ((0, 1), (-1, -2)):
+        at, z = curve[end]
+        if any(np.allclose(np.append(z, at), point, rtol=1e-9, atol=1e-9) for point in singular):
+            stable[end] = stable[neighbor]
+    return Branch(parameter, np.array([state.q for state in states]), stable)
+
+
+def _stable(family: Family, states: Sequence[Any]) -> np.ndarray:
+    """Verdict at every point, all eigenvalues in one batch."""
+    from engdyn.analysis.linear import linearize
+
+    eom, count = family.eom, len(states)
+    rows = [
+        [*s.q, *s.speeds, *parameter_values(eom, s.values), *input_values(eom, s.inputs, s.values), 0.0, *s.accelerations]
+        for s in states
+    ]
+    flat = compiled_blocks(eom, "numpy")(*np.array(rows, dtype=float).T)
+    flat = np.stack([np.broadcast_to(np.asarray(x, dtype=float), (count,)) for x in flat], axis=-1)
+    blocks, start = {}, 0
+    for name, shape in block_shapes(eom).items():
+        size = shape[0] * shape[1]
+        blocks[name] = flat[:, start : start + size].reshape(count, *shape)
+        start += size
+    found = sorted_eigenvalues(np.linalg.eigvals(assemble(blocks)))
+    middle = states[count // 2]
+    neutral = neutral_eigenvalues(linearize(eom, middle))
+    return np.array([verdict_of(each, neutral) == "asymptotically stable" for each in found])
