@@ -90,10 +90,10 @@ def systems() -> None:
 
     from .systems import catalogue
 
-    rows = catalogue()
+    rows = catalogue().reset_index()
     table = Table(box=None, pad_edge=False)
-    for name in rows.columns:
-        table.add_column(str(name), justify="right" if name == "DOF" else "left")
+    for name, values in rows.items():
+        table.add_column(str(name), justify="right" if values.dtype.kind == "i" else "left")
     for row in rows.itertuples(index=False):
         table.add_row(*(str(value) for value in row))
     Console().print(table)
@@ -108,7 +108,6 @@ def analyze(
     force: Annotated[bool, typer.Option("--force", help="Replace the file if it is there.")] = False,
 ) -> None:
     """Take one system through the whole sequence and write an HTML report."""
-    from .course.report import write_report
     from .systems import load
 
     system = load(key)
@@ -119,6 +118,8 @@ def analyze(
         raise EngdynError(
             f"{target} exists and was not touched: name another file with --out, or add --force."
         )
+    from .course.report import write_report
+
     write_report(system.key, target)
     print(f"wrote {target}")
 

@@ -120,7 +120,11 @@ def test_values_change_the_geometry():
 
 @pytest.mark.parametrize(
     ("q", "message"),
-    [([0.0], "coordinates x, theta"), ([0.0, math.nan], "not finite"), ([[0.0, 1.0]], "coordinates x, theta")],
+    [
+        ([0.0], "coordinates x, theta"),
+        ([0.0, math.nan], "not finite"),
+        ([[0.0, 1.0]], "coordinates x, theta"),
+    ],
 )
 def test_what_is_no_pose_is_refused(q, message):
     with pytest.raises(ed.EngdynError, match=message):

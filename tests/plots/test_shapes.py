@@ -65,7 +65,12 @@ def test_every_label_is_written_exactly_once(kind):
 
 
 @pytest.mark.parametrize(
-    "kind", [k for k in KINDS if {"start", "end"} <= {f.name for f in dataclasses.fields(k)} and k is not shapes.Wheel]
+    "kind",
+    [
+        k
+        for k in KINDS
+        if {"start", "end"} <= {f.name for f in dataclasses.fields(k)} and k is not shapes.Wheel
+    ],
 )
 def test_a_shape_of_no_length_still_draws_finite_lines(kind):
     here = 0.7 if "center" in [f.name for f in dataclasses.fields(kind)] else (1.0, 1.0)
@@ -154,13 +159,17 @@ def test_moment_arrow_ends_at_its_angle_tangentially():
     assert along == pytest.approx([-1, 0], abs=0.05)  # the arc is a polygon with steps of 0.05 rad
 
 
-@pytest.mark.parametrize(("length", "shown"), [(0.5, (0.5, 0.0)), (-0.5, (-0.5, 0.0)), (0.0, (0.3, 0.0)), (0.1, (0.3, 0.0))])
+@pytest.mark.parametrize(
+    ("length", "shown"), [(0.5, (0.5, 0.0)), (-0.5, (-0.5, 0.0)), (0.0, (0.3, 0.0)), (0.1, (0.3, 0.0))]
+)
 def test_a_coordinate_too_small_to_see_shows_its_positive_sense(length, shown):
     pen = traced(shapes.CoordinateArrow((0, 0), (length, 0)), unit=0.01)
     assert pen.areas[0].points[0] == pytest.approx(shown)
 
 
-@pytest.mark.parametrize(("angle", "positive", "sense"), [(0.8, 1, 1), (-0.8, 1, -1), (0.0, 1, 1), (0.0, -1, -1)])
+@pytest.mark.parametrize(
+    ("angle", "positive", "sense"), [(0.8, 1, 1), (-0.8, 1, -1), (0.0, 1, 1), (0.0, -1, -1)]
+)
 def test_angle_arrow_turns_the_right_way(angle, positive, sense):
     pen = traced(shapes.AngleArrow((0, 0), 1.0, 0.0, angle, positive=positive), unit=0.01)
     tip = pen.areas[0].points[0]

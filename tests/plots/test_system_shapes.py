@@ -30,7 +30,9 @@ def texts(drawn):
 @pytest.mark.parametrize("system", [S03, S07, S23], ids=repr)
 def test_a_drawing_names_what_the_model_holds(system):
     drawn = system.shapes(shown_pose(system), system.values())
-    words = " ".join(texts(drawn)).replace("$", " ").replace(",", " ").replace("{", "").replace("}", "").split()
+    words = (
+        " ".join(texts(drawn)).replace("$", " ").replace(",", " ").replace("{", "").replace("}", "").split()
+    )
     for parameter in system.parameters:
         plain = symbol(parameter).strip("$").replace("{", "").replace("}", "")
         assert plain in words, parameter.name
@@ -45,7 +47,11 @@ def test_a_drawing_names_what_the_model_holds(system):
 def test_every_force_and_prescribed_motion_has_an_arrow(system):
     drawn = system.shapes(shown_pose(system), system.values())
     arrows = {shape.label.strip("$") for shape in of((shapes.ForceArrow, shapes.MomentArrow), drawn)}
-    wanted = {symbol(i).strip("$").replace("{", "").replace("}", "") for i in system.inputs if i.kind != "drive angle"}
+    wanted = {
+        symbol(i).strip("$").replace("{", "").replace("}", "")
+        for i in system.inputs
+        if i.kind != "drive angle"
+    }
     assert wanted <= {label.replace("{", "").replace("}", "") for label in arrows}
 
 

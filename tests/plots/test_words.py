@@ -13,7 +13,8 @@ from engdyn.plots.words import number, pose, quantity, symbol, with_unit
 
 
 @pytest.mark.parametrize(
-    ("value", "text"), [(0.0, "0"), (1e-17, "0"), (-1e-17, "0"), (1234.5678, "1235"), (-0.25, "−0.25"), (1e-5, "1e−05")]
+    ("value", "text"),
+    [(0.0, "0"), (1e-17, "0"), (-1e-17, "0"), (1234.5678, "1235"), (-0.25, "−0.25"), (1e-5, "1e−05")],
 )
 def test_numbers(value, text):
     assert number(value) == text

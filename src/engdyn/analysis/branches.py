@@ -175,7 +175,12 @@ def _branch(family: Family, curve: Curve, singular: Sequence[np.ndarray]) -> Bra
         at, z = curve[end]
         if any(np.allclose(np.append(z, at), point, rtol=1e-9, atol=1e-9) for point in singular):
             stable[end] = stable[neighbor]
-    return Branch(parameter, np.array([state.q for state in states]), stable)
+    q = np.array([state.q for state in states])
+    for unknown, periodic in zip(family.unknowns, family.periodic, strict=True):
+        if periodic:  # whole turns off, the branch left in one piece
+            column = family.names.index(unknown.name)
+            q[:, column] -= 2 * np.pi * np.round((np.median(q[:, column]) - 1e-9) / (2 * np.pi))
+    return Branch(parameter, q, stable)
 
 
 def _stable(family: Family, states: Sequence[Any]) -> np.ndarray:

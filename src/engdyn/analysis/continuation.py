@@ -6,11 +6,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+import sympy as sm
+from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.codegen import compile_elements
 from engdyn.algebra.conversion import Converter
 from engdyn.algebra.ring import Element
-from engdyn.analysis.equilibrium import Equilibrium
+from engdyn.analysis.equilibrium import Equilibrium, is_periodic
 from engdyn.analysis.steady import SteadyProblem
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.numbers import mass_and_force
@@ -47,6 +49,8 @@ class Family:
         self.names = self.problem.names
         self.unknowns = self.problem.unknowns
         self.scale = np.array([self._width(u.name) for u in self.unknowns])
+        widths = zip(self.unknowns, self.scale, strict=True)
+        self.periodic = np.array([is_periodic(self.problem, u, (0.0, width)) for u, width in widths], dtype=bool)
         self._compile(symbol)
 
     def _width(self, name: str) -> float:
@@ -59,7 +63,8 @@ class Family:
         found = []
         for w, triple in self.eom.defaults.items():
             if w.func.__name__ not in given:
-                found += [(w, k, e) for k, e in enumerate(triple) if getattr(e, "has", lambda s: False)(symbol) and k > 0]
+                symbols = [sm.sympify(e).free_symbols for e in triple]
+                found += [(w, k, triple[k]) for k in (1, 2) if symbol in symbols[k] and dynamicsymbols._t not in symbols[k]]
         return found
 
     def _compile(self, symbol: Any) -> None:
@@ -101,8 +106,8 @@ class Family:
         slack = 1e-9 * (high - low)
         if not low - slack <= at <= high + slack:
             return False
-        for unknown, value in zip(self.unknowns, z, strict=True):
-            if unknown.name in self.bounds:
+        for unknown, value, periodic in zip(self.unknowns, z, self.periodic, strict=True):
+            if unknown.name in self.bounds and not periodic:
                 least, greatest = self.bounds[unknown.name]
                 edge = 1e-9 * (greatest - least)
                 if not least - edge <= value <= greatest + edge:
@@ -266,9 +271,10 @@ class _Tracer:
         for curve in self.curves:
             points = np.array([np.append(z, at) for at, z in curve]) / self.width
             a, b = points[:-1], points[1:]
-            along = b - a
-            share = np.clip(np.sum((y - a) * along, axis=1) / np.maximum(np.sum(along**2, axis=1), 1e-300), 0, 1)
-            if np.min(np.linalg.norm(a + share[:, None] * along - y, axis=1)) < 2e-3:
+            turns = np.append(self.family.periodic, False) * np.round(y - a)  # a whole turn away is the same place
+            away, along = y - turns - a, b - a
+            share = np.clip(np.sum(away * along, axis=1) / np.maximum(np.sum(along**2, axis=1), 1e-300), 0, 1)
+            if np.min(np.linalg.norm(share[:, None] * along - away, axis=1)) < 2e-3:
                 return True
         return False
 

@@ -195,7 +195,7 @@ def equilibria(
     if not problem.unknowns:
         return EquilibriumSet(tuple(_complete(problem, [[]], bounds)), None, (), tuple(problem.neutral), "", names)
     region = [_region(problem, unknown, bounds) for unknown in problem.unknowns]
-    periodic = [i for i, u in enumerate(problem.unknowns) if _is_periodic(problem, u, region[i])]
+    periodic = [i for i, u in enumerate(problem.unknowns) if is_periodic(problem, u, region[i])]
     certificate = enclose_roots(*_ball_functions(problem), region, periodic=periodic)
     found = _complete(problem, [[ball(*side) for side in root] for root in certificate.roots], bounds)
     labels = tuple(u.name for u in problem.unknowns)
@@ -254,7 +254,7 @@ def _only_in_angles(problem: SteadyProblem, unknown: Unknown) -> bool:
     return True
 
 
-def _is_periodic(problem: SteadyProblem, unknown: Unknown, region: tuple[float, float]) -> bool:
+def is_periodic(problem: SteadyProblem, unknown: Unknown, region: tuple[float, float]) -> bool:
     whole = abs(region[1] - region[0] - 2 * math.pi) < 1e-9
     return whole and unknown.name in problem.names and _only_in_angles(problem, unknown)
 

@@ -189,7 +189,8 @@ def branches(branch_set: BranchSet, coordinate: str, ax: Axes | None = None, *, 
         handles = [legend_entry(kind) for kind in (True, False) if len(_runs(branch_set, index, kind)[0])]
         if handles:
             ax.legend(handles=handles, loc="best", frameon=True)
-        ax.margins(x=0.0, y=0.08)
+        ax.margins(y=0.08)
+        ax.set_xlim(*branch_set.range)
     describe(ax, _branches_in_words(branch_set, system, parameter, index))
     return ax
 
@@ -198,23 +199,40 @@ def _runs(branch_set: BranchSet, index: int, kind: bool) -> tuple[NDArray[np.flo
     """Return all stretches of one stability as one line, interrupted by NaN."""
     across, up = [], []
     for branch in branch_set:
-        stable = _judged(branch, branch_set)
+        parameter, q, stable = _judged(branch, branch_set.points)
         for run in split(stable):
             if stable[run.start] == kind:
-                across += [np.asarray(branch.parameter, float)[run], [np.nan]]
-                up += [np.asarray(branch.q, float)[run, index], [np.nan]]
+                across += [parameter[run], [np.nan]]
+                up += [q[run, index], [np.nan]]
     return np.concatenate([*across, []]), np.concatenate([*up, []])
 
 
-def _judged(branch: Any, branch_set: BranchSet) -> NDArray[np.bool_]:
-    """Return the stability along a branch; the marginal states where branches meet take that of their neighbors."""
-    stable = np.array(branch.stable, bool)
-    parameter, q = np.asarray(branch.parameter, float), np.asarray(branch.q, float)
-    for point in branch_set.points:
-        apart = abs(parameter - point.parameter) / np.ptp(parameter) + np.max(abs(q - point.q), axis=1)
+def _judged(branch: Any, points: Sequence[Any]) -> tuple[NDArray, NDArray, NDArray[np.bool_]]:
+    """Return parameter, coordinates and stability along a branch, changing exactly where branches meet.
+
+    A state at a meeting point is marginal: it takes the stability of what follows. Where the stability changes
+    between two states, the meeting point between them is inserted.
+    """
+    parameter, q, stable = (np.array(part) for part in (branch.parameter, branch.q, branch.stable))
+    for point in points:
+        state = np.concatenate([[point.parameter], point.q])
+        states = np.column_stack([parameter, q])
+        scale = np.maximum(np.ptp(states, axis=0), 1e-12)
+        apart = np.max(abs(states - state) / scale, axis=1)
         for i in np.flatnonzero(apart < 1e-6):
             stable[i] = stable[i + 1] if i + 1 < len(stable) else stable[i - 1]
-    return stable
+        for i in np.flatnonzero(np.diff(stable)):
+            if (
+                apart[[i, i + 1]].max() <= 1.01 * np.max(abs(states[i + 1] - states[i]) / scale)
+                and apart[i + 1] > 1e-6
+            ):
+                parameter, q = (
+                    np.insert(parameter, i + 1, point.parameter),
+                    np.insert(q, i + 1, point.q, axis=0),
+                )
+                stable = np.insert(stable, i + 1, stable[i + 1])
+                break
+    return parameter, q, stable
 
 
 def _mark_point(ax: Axes, point: Any, index: int) -> None:
@@ -230,7 +248,7 @@ def _branches_in_words(branch_set: BranchSet, system: System, parameter: Any, in
     for branch in branch_set:
         first, last = (quantity(parameter.name, float(branch.parameter[i]), parameter.unit) for i in (0, -1))
         ends = " to ".join(number(float(branch.q[i][index])) for i in (0, -1))
-        stable = _judged(branch, branch_set)
+        stable = _judged(branch, branch_set.points)[2]
         share = "stable" if stable.all() else ("partly stable" if stable.any() else "unstable")
         text += f" From {first} to {last}: {coordinate.name} {ends}, {share}."
     for point in branch_set.points:

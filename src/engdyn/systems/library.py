@@ -1,4 +1,4 @@
-"""The catalogue of representative systems.  Appendix A."""
+"""The catalogue of representative systems and the worked examples.  Appendix A."""
 
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ __all__ = ["catalogue", "load"]
 
 
 @cache
-def _modules() -> dict[int, tuple[str, str]]:
-    """Number → (key, module name) of every file ``sNN_key.py`` beside this one."""
+def _modules() -> dict[str, tuple[str, str]]:
+    """Label ("S07", "W10") → (key, module name) of every file ``sNN_key.py`` and ``wNN_key.py`` beside this one."""
     found = {}
     for entry in resources.files("engdyn.systems").iterdir():
         name = entry.name
-        if name.startswith("s") and name.endswith(".py") and name[1:3].isdigit() and name[3] == "_":
-            found[int(name[1:3])] = (name[4:-3], name[:-3])
+        if name.endswith(".py") and name[0] in "sw" and name[1:3].isdigit() and name[3] == "_":
+            found[name[:3].upper()] = (name[4:-3], name[:-3])
     return dict(sorted(found.items()))
 
 
 def load(key: str | int) -> System:
-    """A system of the catalogue.
+    """A system of the catalogue, or one of the worked examples.
 
     Parameters
     ----------
     key : str or int
-        ``"gantry_crane"``, ``"S07"`` or ``7``.
+        ``"gantry_crane"``, ``"S07"`` or ``7``; worked examples have labels such as ``"W7"``.
 
     Returns
     -------
@@ -50,28 +50,33 @@ def load(key: str | int) -> System:
     >>> ed.systems.load("S07")
     System(S07 Gantry crane: trolley and hanging container; x, theta)
     """
-    number = _number(key)
-    return import_module(f"engdyn.systems.{_modules()[number][1]}").build()
+    return import_module(f"engdyn.systems.{_modules()[_label(key)][1]}").build()
 
 
-def _number(key: Any) -> int:
+def _label(key: Any) -> str:
+    """The label of a system, by number, label or key."""
     modules = _modules()
-    if isinstance(key, int) and not isinstance(key, bool) and key in modules:
-        return key
-    text = str(key).strip().lower()
-    by_name = {name: number for number, (name, _) in modules.items()}
-    by_name |= {f"s{number:02d}": number for number in modules} | {f"s{number}": number for number in modules}
-    if text in by_name:
-        return by_name[text]
-    near = difflib.get_close_matches(text, by_name, n=1, cutoff=0.0)
-    if text.lstrip("s").isdigit():
-        nearest = min(modules, key=lambda n: abs(n - int(text.lstrip("s"))))
-    else:
-        nearest = by_name[near[0]] if near else next(iter(modules))
+    text = f"S{key:02d}" if isinstance(key, int) and not isinstance(key, bool) else str(key).strip()
+    kind, digits = text[:1].upper(), text[1:]
+    if kind in "SW" and digits.isdigit() and len(digits) < 3 and f"{kind}{int(digits):02d}" in modules:
+        return f"{kind}{int(digits):02d}"
+    by_key = {name: label for label, (name, _) in modules.items()}
+    if text.lower() in by_key:
+        return by_key[text.lower()]
     raise UnknownSystemError(
-        f"there is no system {key!r}; the nearest is S{nearest:02d} {modules[nearest][0]!r}. "
-        "engdyn.systems.catalogue() lists all"
+        f"there is no system {key!r}; the nearest is {_nearest(text, by_key)}. engdyn.systems.catalogue() lists all"
     )
+
+
+def _nearest(text: str, by_key: dict[str, str]) -> str:
+    """The system whose number or key resembles the text most, as ``S07 'gantry_crane'``."""
+    digits = text[1:] if text[:1].upper() in ("S", "W") else text
+    if digits.lstrip("-").isdigit():
+        label = min((x for x in by_key.values() if x[0] == "S"), key=lambda x: abs(int(x[1:]) - int(digits)))
+    else:
+        close = difflib.get_close_matches(text.lower(), by_key, n=1, cutoff=0.0)
+        label = by_key[close[0]] if close else min(by_key.values())
+    return f"{label} {_modules()[label][0]!r}"
 
 
 def catalogue() -> pd.DataFrame:
@@ -84,7 +89,7 @@ def catalogue() -> pd.DataFrame:
     """
     import pandas as pd
 
-    systems = [load(number) for number in _modules()]
+    systems = [load(label) for label in _modules() if label[0] == "S"]
     rows = [
         {"key": s.key, "title": s.title, "field": s.field, "degrees of freedom": len(s.coordinates) - len(s.constraints)}
         for s in systems

@@ -1,0 +1,177 @@
+"""The project as a whole: its rules are kept, its documents tell the truth, its wheel is complete."""
+
+from __future__ import annotations
+
+import ast
+import math
+import re
+import subprocess
+import sys
+import tomllib
+import zipfile
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+import engdyn
+
+CHECKOUT = Path(__file__).resolve().parents[1]
+SOURCES = sorted((CHECKOUT / "src" / "engdyn").rglob("*.py"))
+DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
+MODULE_LINES, FUNCTION_LINES, PACKAGE_LINES = 300, 40, 12_000
+
+
+def _tool(*command: str) -> None:
+    run = subprocess.run(
+        [sys.executable, "-m", *command], cwd=CHECKOUT, capture_output=True, text=True, check=False
+    )
+    assert run.returncode == 0, run.stdout[-4000:] + run.stderr[-2000:]
+
+
+def test_format():
+    _tool("ruff", "format", "--check", "--no-cache", ".")
+
+
+def test_lint():
+    _tool("ruff", "check", "--no-cache", "--quiet", ".")
+
+
+def test_types_of_the_public_surface():
+    _tool("mypy", "--no-error-summary", "--cache-dir", str(CHECKOUT / ".mypy_cache"))
+
+
+def test_imports_point_one_way():
+    code = "import sys; from importlinter.cli import lint_imports; sys.exit(lint_imports(no_cache=True))"
+    run = subprocess.run(
+        [sys.executable, "-c", code], cwd=CHECKOUT, capture_output=True, text=True, check=False
+    )
+    assert run.returncode == 0, run.stdout[-4000:] + run.stderr[-2000:]
+    assert "2 kept, 0 broken" in run.stdout
+
+
+def _name(path: Path) -> str:
+    return path.relative_to(CHECKOUT / "src" / "engdyn").as_posix()
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=_name)
+def test_rooms_are_small(path):
+    text = path.read_text(encoding="utf-8")
+    assert text.count("\n") <= MODULE_LINES
+    functions = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef)]
+    long = {node.name: _lines(node) for node in functions if _lines(node) > FUNCTION_LINES}
+    assert long == {}
+
+
+def _lines(function: ast.FunctionDef) -> int:
+    """Lines of a function without its docstring."""
+    body = function.body
+    documented = isinstance(body[0], ast.Expr) and isinstance(getattr(body[0], "value", None), ast.Constant)
+    docstring = body[0].end_lineno - body[0].lineno + 1 if documented else 0
+    return function.end_lineno - function.lineno + 1 - docstring
+
+
+def test_the_companion_stays_small():
+    assert sum(path.read_text(encoding="utf-8").count("\n") for path in SOURCES) <= PACKAGE_LINES
+
+
+def test_nothing_is_simplified():
+    calls = {
+        f"{_name(path)}:{node.lineno}"
+        for path in SOURCES
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call)
+        and getattr(node.func, "attr", getattr(node.func, "id", "")) in {"simplify", "trigsimp", "nsimplify"}
+    }
+    assert calls == set()
+
+
+def test_every_document_names_the_same_version():
+    citation = (CHECKOUT / "CITATION.cff").read_text(encoding="utf-8")
+    newest = re.search(
+        r"^## \[(\d[^]]*)\]", (CHECKOUT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE
+    )
+    assert re.search(r"^version: (.*)$", citation, re.MULTILINE)[1] == engdyn.__version__
+    assert newest[1] == engdyn.__version__
+
+
+def _requirements() -> list[Requirement]:
+    project = tomllib.loads((CHECKOUT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    return [Requirement(line) for line in project["dependencies"] + extras["lab"] + extras["test"]]
+
+
+def test_constraints_are_names_and_exact_versions_only():
+    lines = (CHECKOUT / "constraints.txt").read_text(encoding="utf-8").splitlines()
+    assert all(re.fullmatch(r"[a-z0-9][a-z0-9.-]*==[0-9][0-9a-z.]*", line) for line in lines)
+    names = [line.split("==")[0] for line in lines]
+    assert names == sorted(set(names))
+
+
+@pytest.mark.parametrize("requirement", _requirements(), ids=lambda requirement: requirement.name)
+def test_every_dependency_is_constrained_within_its_bound_and_tested_so(requirement):
+    lines = (CHECKOUT / "constraints.txt").read_text(encoding="utf-8").splitlines()
+    constrained = dict(line.split("==") for line in lines)[canonicalize_name(requirement.name)]
+    assert requirement.specifier.contains(constrained)
+    if requirement.marker is None or requirement.marker.evaluate():
+        assert requirement.specifier.contains(version(requirement.name))
+
+
+def test_the_wheel_carries_the_course_and_nothing_of_the_workshop(tmp_path):
+    from hatchling.builders.wheel import WheelBuilder
+
+    (wheel,) = WheelBuilder(str(CHECKOUT)).build(directory=str(tmp_path), versions=["standard"])
+    names = set(zipfile.ZipFile(wheel).namelist())
+    for part in ("notebooks", "exercises"):
+        expected = {f"engdyn/course_files/{part}/{path.name}" for path in (CHECKOUT / part).glob("*.ipynb")}
+        assert expected
+        assert expected <= names
+    assert {"engdyn/py.typed", "engdyn/__init__.pyi", "engdyn/cli.py"} <= names
+    assert {f"engdyn/{_name(path)}" for path in SOURCES} <= names
+    assert not any(
+        "solutions" in name or name.startswith("tests") or ".ipynb_checkpoints" in name for name in names
+    )
+
+
+@pytest.mark.parametrize("document", DOCUMENTS)
+def test_links_between_documents_lead_somewhere(document):
+    text = (CHECKOUT / document).read_text(encoding="utf-8")
+    links = re.findall(r"\]\(([^)\s]+)\)", text) + re.findall(r"^\[[^]]+\]: (\S+)", text, re.MULTILINE)
+    assert links
+    assert [
+        link for link in links if "://" not in link and not (CHECKOUT / link.split("#")[0]).exists()
+    ] == []
+
+
+def test_the_clean_run_is_the_line_of_the_readme():
+    readme = (CHECKOUT / "README.md").read_text(encoding="utf-8")
+    run = (CHECKOUT / ".ci" / "run").read_text(encoding="utf-8")
+    (line,) = re.findall(r"^    (python3 course\.py test)$", readme, re.MULTILINE)
+    assert re.search(rf"^{re.escape(line)} 2>&1", run, re.MULTILINE)
+
+
+def test_an_own_system_of_the_readme(tmp_path):
+    readme = (CHECKOUT / "README.md").read_text(encoding="utf-8")
+    marked = readme.split("<!-- own system: tested -->")[1]
+    code, printed = re.search(r"```python\n(.*?)```.*?```text\n(.*?)```", marked, re.DOTALL).groups()
+    assert len([line for line in code.splitlines() if line.strip()]) <= 25
+    (tmp_path / "own.py").write_text(code)
+    run = subprocess.run(
+        [sys.executable, "own.py"], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert (run.stdout, run.stderr) == (printed, "")
+    lean = float(printed.splitlines()[-1].split()[0])  # rests where m g l sin(lean) = k lean
+    assert math.isclose(12 * 9.81 * 3 * math.sin(lean), 300 * lean, rel_tol=1e-4)
+
+
+def test_the_first_example_of_the_readme_runs(tmp_path):
+    readme = (CHECKOUT / "README.md").read_text(encoding="utf-8")
+    (code, *_) = re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
+    asserts = 'assert crane.prove().verdict == "proved"\nassert len(calm) == len(windy) == 2\n'
+    (tmp_path / "example.py").write_text(code + asserts)
+    run = subprocess.run(
+        [sys.executable, "example.py"], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert (run.returncode, run.stderr) == (0, "")
