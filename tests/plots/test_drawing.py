@@ -180,7 +180,12 @@ def test_every_role_has_a_color_that_is_readable_as_text(role):
 
 def test_style_is_left_as_found_even_after_an_error():
     before = dict(matplotlib.rcParams)
-    with pytest.raises(RuntimeError, match="inside"), style():
-        assert dict(matplotlib.rcParams) != before
-        raise RuntimeError("inside")
+
+    def fail_inside():
+        with style():
+            assert dict(matplotlib.rcParams) != before
+            raise RuntimeError("inside")
+
+    with pytest.raises(RuntimeError, match="inside"):
+        fail_inside()
     assert dict(matplotlib.rcParams) == before

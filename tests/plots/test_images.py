@@ -5,20 +5,22 @@ Set ENGDYN_UPDATE_BASELINE=1 to write the reference images anew, then look at ev
 
 from __future__ import annotations
 
+import io
 import os
 from pathlib import Path
 
 import numpy as np
 import pytest
-from matplotlib.testing.compare import compare_images
+from PIL import Image, ImageFilter
 
 import engdyn as ed
 from engdyn.plots.alternative import png
 
 BASELINE = Path(__file__).parent / "baseline"
 
-TOLERANCE = 12.0
-"""Root-mean-square difference of gray levels: another release of matplotlib or FreeType may move edges of letters."""
+LIMIT = 18
+"""Largest gray-level difference of blurred pictures: a shift by one pixel, as another release of FreeType may
+bring, stays within it; a missing label of one letter does not."""
 
 
 def governor():
@@ -60,19 +62,32 @@ def governor_branches():
 PICTURES = [governor, crane, half_car, governor_poses, crane_energy, half_car_energy, governor_branches]
 
 
+def blurred(image: bytes) -> np.ndarray:
+    return np.asarray(Image.open(io.BytesIO(image)).convert("L").filter(ImageFilter.GaussianBlur(3)), int)
+
+
+def differs(expected: bytes, actual: bytes) -> bool:
+    a, b = blurred(expected), blurred(actual)
+    return a.shape != b.shape or bool(np.max(abs(a - b)) > LIMIT)
+
+
 @pytest.mark.parametrize("picture", PICTURES, ids=lambda picture: picture.__name__)
 def test_picture_looks_as_it_did(picture, tmp_path):
-    expected, actual = BASELINE / f"{picture.__name__}.png", tmp_path / f"{picture.__name__}.png"
+    baseline = BASELINE / f"{picture.__name__}.png"
     image = png(picture(), dpi=50)
     if os.environ.get("ENGDYN_UPDATE_BASELINE"):
-        expected.write_bytes(image)
-    actual.write_bytes(image)
-    assert compare_images(str(expected), str(actual), TOLERANCE) is None
+        baseline.write_bytes(image)
+    # Kept by pytest for some runs, so that a failure can be looked at.
+    (tmp_path / baseline.name).write_bytes(image)
+    assert not differs(baseline.read_bytes(), image), tmp_path / baseline.name
 
 
-def test_the_comparison_notices_missing_labels(tmp_path):
-    other = tmp_path / "other.png"
-    other.write_bytes(png(ed.plots.draw(ed.systems.load(7), [2.0, 0.45], labels=False), dpi=50))
-    reference = tmp_path / "crane.png"
-    reference.write_bytes((BASELINE / "crane.png").read_bytes())
-    assert compare_images(str(reference), str(other), TOLERANCE) is not None
+@pytest.mark.parametrize("picture", [governor, crane, half_car], ids=lambda picture: picture.__name__)
+def test_the_comparison_notices_a_missing_label_but_forgives_a_pixel(picture):
+    ax = picture()
+    complete = png(ax, dpi=50)
+    shifted = io.BytesIO()
+    Image.fromarray(np.roll(np.asarray(Image.open(io.BytesIO(complete))), 1, axis=1)).save(shifted, "png")
+    assert not differs(complete, shifted.getvalue())
+    next(text for text in ax.texts if "theta" in text.get_text()).remove()
+    assert differs(complete, png(ax, dpi=50))

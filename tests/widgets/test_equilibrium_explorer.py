@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import math
 import random
 
@@ -11,7 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import engdyn as ed
+from engdyn.widgets import equilibrium_explorer as module
 from engdyn.widgets.equilibrium_explorer import find, follow, slider
+from engdyn.widgets.explorer import PATIENCE
 
 CRITICAL = math.sqrt((1.2 + 3.0) * 9.81 / (1.2 * 0.25))
 
@@ -63,14 +66,44 @@ def test_the_present_value_and_the_equilibria_there_are_marked(explorer):
     assert found[18.0, 0.7727] != "white"
 
 
-def test_moving_along_the_diagram_does_not_follow_the_branches_again(explorer):
-    explorer.set(system="S03", over="Omega", Omega=18.0)
-    before = explorer._follow.cache_info().misses
+@pytest.fixture
+def followed(monkeypatch):
+    """Every call of `follow`."""
+    calls = []
+    monkeypatch.setattr(module, "follow", lambda *given: calls.append(given) or follow(*given))
+    return calls
+
+
+def test_moving_along_the_diagram_does_not_follow_the_branches_again(followed):
+    explorer = ed.widgets.equilibrium("S03", Omega=18.0)
+    assert len(followed) == 1
     for Omega in (10.0, 20.0, 30.0):
         explorer.set(Omega=Omega)
-    assert explorer._follow.cache_info().misses == before
+    assert len(followed) == 1
     explorer.set(k=150.0)
-    assert explorer._follow.cache_info().misses == before + 1
+    assert len(followed) == 2
+    explorer.set(k=200.0)
+    assert len(followed) == 2  # remembered
+
+
+def test_while_dragged_in_a_live_notebook_the_diagram_waits_for_rest(followed):
+    explorer = ed.widgets.equilibrium("S03", Omega=18.0)
+    mass = explorer._widgets["m"]
+
+    async def drag():
+        for m in (1.3, 1.4, 2.4):
+            mass.value = m
+            assert f"{mass.value:g}" in explorer._line.value
+            await asyncio.sleep(0.01)
+        assert len(followed) == 1
+        assert len(explorer.figure.axes[1].patches) == 1  # veiled
+        await asyncio.sleep(2 * PATIENCE)
+
+    asyncio.run(drag())
+    assert [values["m"] for _, values, *_ in followed] == [1.2, 2.4]
+    assert not explorer.figure.axes[1].patches
+    (diamond,) = (line for line in explorer.figure.axes[1].lines if line.get_marker() == "D")
+    assert diamond.get_xdata()[0] == pytest.approx(math.sqrt((2.4 + 3.0) * 9.81 / (2.4 * 0.25)), abs=1e-6)
 
 
 def test_the_diagram_moves_with_the_other_parameters(explorer):

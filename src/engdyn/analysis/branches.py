@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from engdyn.analysis.continuation import Curve, Family, trace
+from engdyn.analysis.continuation import trace
+from engdyn.analysis.family import Curve, Family
 from engdyn.analysis.equilibrium import equilibria
 from engdyn.analysis.linear import assemble, block_shapes, compiled_blocks, sorted_eigenvalues
 from engdyn.analysis.stability import neutral_eigenvalues, verdict_of
@@ -189,7 +190,14 @@ def _stable(family: Family, states: Sequence[Any]) -> np.ndarray:
 
     eom, count = family.eom, len(states)
     rows = [
-        [*s.q, *s.speeds, *parameter_values(eom, s.values), *input_values(eom, s.inputs, s.values), 0.0, *s.accelerations]
+        [
+            *s.q,
+            *s.speeds,
+            *parameter_values(eom, s.values),
+            *input_values(eom, s.inputs, s.values),
+            0.0,
+            *s.accelerations,
+        ]
         for s in states
     ]
     flat = compiled_blocks(eom, "numpy")(*np.array(rows, dtype=float).T)

@@ -224,12 +224,19 @@ class _Search:
                 return
             if step.regular and self._accept_inflated(box, inner, step.image):
                 return
-            ratios = [_width(a) / _width(b) for a, b in zip(step.image, inner, strict=True) if _width(b)]
-            inner = step.image
-            if math.prod(ratios) > 0.3:
+            before, inner = inner, self._with_margin(step.image, inner)
+            if math.prod(_width(a) / _width(b) for a, b in zip(inner, before, strict=True)) > 0.3:
                 break
         self.rejected.extend(_subtract(box, inner))
         self._cut(inner, step.slopes)
+
+    def _with_margin(self, image: Box, box: Box) -> Box:
+        """Return the image with a margin, so that what is cut off touches no root, not even with its rim."""
+        margins = [1e-12 * extent for extent in self.extent]
+        return tuple(
+            (max(low, new_low - margin), min(high, new_high + margin))
+            for (new_low, new_high), (low, high), margin in zip(image, box, margins, strict=True)
+        )
 
     def _cut(self, box: Box, slopes: list[list[Any]] | None) -> None:
         """Cut a box in two across the unknown that moves the equations most, or give it up as undecided."""
@@ -411,10 +418,12 @@ def _wrap(box: Box, root: Box, k: int, bounds: tuple[float, float], margin: floa
 
 
 def _snap(root: tuple[float, float], bounds: tuple[float, float]) -> tuple[float, float]:
-    """Return the enclosure of one unknown, widened to be centered on zero where it holds zero, on an edge
-    of the region where its middle lies beyond.
+    """Return the enclosure of one unknown, widened to be centered on zero or on an edge where it holds it.
+
+    A root beyond an edge, but within the margin that was searched, counts as on the edge.
     """
-    center = 0.0 if root[0] <= 0.0 <= root[1] else min(max(_middle(root), bounds[0]), bounds[1])
+    held = [mark for mark in (0.0, *bounds) if root[0] <= mark <= root[1]]
+    center = held[0] if held else min(max(_middle(root), bounds[0]), bounds[1])
     if center == _middle(root):
         return root
     unit = 2.0 * math.ulp(max(abs(center), abs(root[0]), abs(root[1])))  # so that both bounds are exact
@@ -492,12 +501,12 @@ def _merge(boxes: np.ndarray, avoided: np.ndarray, extent: np.ndarray) -> list[B
     while waiting:
         group, halvings = waiting.pop()
         hull = np.stack([group[:, :, 0].min(axis=0), group[:, :, 1].max(axis=0)], axis=1)
-        parts = _parts_at_gap(group)
+        relative = (hull[:, 1] - hull[:, 0]) / extent
+        free = not ((avoided[:, :, 0] < hull[:, 1]) & (avoided[:, :, 1] > hull[:, 0])).all(axis=1).any()
+        parts = None if free and relative.max() < 1e-4 else _parts_at_gap(group)
         if parts is None:
-            relative = (hull[:, 1] - hull[:, 0]) / extent
             filled = (np.diff(group)[:, :, 0] / extent).prod(axis=1).sum() / relative.prod()
-            free = not ((avoided[:, :, 0] < hull[:, 1]) & (avoided[:, :, 1] > hull[:, 0])).all(axis=1).any()
-            if len(group) == 1 or (free and (halvings == 0 or filled > 0.5 or relative.max() < 1e-3)):
+            if len(group) == 1 or (free and (halvings == 0 or filled > 0.5 or relative.max() < 1e-4)):
                 merged.append(tuple((float(low), float(high)) for low, high in hull))
                 continue
             order = group[:, relative.argmax(), 0].argsort()

@@ -58,7 +58,9 @@ class Equilibrium:
     def __repr__(self) -> str:
         parts = [f"{name} = {_digits(x)}" for name, x in zip(self.names, self.q, strict=True)]
         moving = [f"{name}' = {_digits(x)}" for name, x in zip(self.names, self.speeds, strict=False) if x]
-        moving += [f"{name}'' = {_digits(x)}" for name, x in zip(self.names, self.accelerations, strict=False) if x]
+        moving += [
+            f"{name}'' = {_digits(x)}" for name, x in zip(self.names, self.accelerations, strict=False) if x
+        ]
         return f"Equilibrium({', '.join([*parts, *moving])})"
 
 
@@ -122,7 +124,9 @@ class EquilibriumSet(Sequence):
 
     def __repr__(self) -> str:
         count = f"{len(self)} equilibri{'um' if len(self) == 1 else 'a'} ({self._claim})"
-        neutral = [f"  neutral: {', '.join(self.neutral)} (reported as 0)"] if self.neutral and len(self) else []
+        neutral = (
+            [f"  neutral: {', '.join(self.neutral)} (reported as 0)"] if self.neutral and len(self) else []
+        )
         return "\n".join([count, *(f"  {item!r}" for item in self), *neutral])
 
     def _repr_html_(self) -> str:
@@ -193,7 +197,9 @@ def equilibria(
         return EquilibriumSet((), None, (), tuple(problem.neutral), why, names)
     _check_count(problem)
     if not problem.unknowns:
-        return EquilibriumSet(tuple(_complete(problem, [[]], bounds)), None, (), tuple(problem.neutral), "", names)
+        return EquilibriumSet(
+            tuple(_complete(problem, [[]], bounds)), None, (), tuple(problem.neutral), "", names
+        )
     region = [_region(problem, unknown, bounds) for unknown in problem.unknowns]
     periodic = [i for i, u in enumerate(problem.unknowns) if is_periodic(problem, u, region[i])]
     certificate = enclose_roots(*_ball_functions(problem), region, periodic=periodic)
@@ -202,9 +208,15 @@ def equilibria(
     return EquilibriumSet(tuple(found), certificate, labels, tuple(problem.neutral), "", names)
 
 
-def _checked_bounds(eom: EquationsOfMotion, bounds: Mapping[str, tuple[float, float]] | None) -> dict[str, tuple[float, float]]:
+def _checked_bounds(
+    eom: EquationsOfMotion, bounds: Mapping[str, tuple[float, float]] | None
+) -> dict[str, tuple[float, float]]:
     names = [q.func.__name__ for q in eom.coordinates]
-    accepted = {*names, *(f"{n}{d}" for n in names for d in ("_d", "_dd")), *(w.func.__name__ for w in eom.inputs)}
+    accepted = {
+        *names,
+        *(f"{n}{d}" for n in names for d in ("_d", "_dd")),
+        *(w.func.__name__ for w in eom.inputs),
+    }
     found = {}
     for name, pair in dict(bounds or {}).items():
         if name not in accepted:
@@ -216,7 +228,9 @@ def _checked_bounds(eom: EquationsOfMotion, bounds: Mapping[str, tuple[float, fl
         if not (math.isfinite(low) and math.isfinite(high)):
             raise EngdynError(f"bounds[{name!r}] = ({low}, {high}): both ends must be finite")
         if low >= high:
-            raise EngdynError(f"bounds[{name!r}] = ({low:g}, {high:g}) are reversed: the lower end comes first")
+            raise EngdynError(
+                f"bounds[{name!r}] = ({low:g}, {high:g}) are reversed: the lower end comes first"
+            )
         found[name] = (low, high)
     return found
 
@@ -231,7 +245,9 @@ def _check_count(problem: SteadyProblem) -> None:
     raise EngdynError(f"{counted}: name an input in free that holds the prescribed motion, or prescribe less")
 
 
-def _region(problem: SteadyProblem, unknown: Unknown, bounds: Mapping[str, tuple[float, float]]) -> tuple[float, float]:
+def _region(
+    problem: SteadyProblem, unknown: Unknown, bounds: Mapping[str, tuple[float, float]]
+) -> tuple[float, float]:
     if unknown.name in bounds:
         return bounds[unknown.name]
     if unknown.name in problem.names and _only_in_angles(problem, unknown):
@@ -313,7 +329,10 @@ def _equilibrium(problem: SteadyProblem, solution: Mapping[str, float]) -> Equil
     owners = [u.expr.func.__name__ if u.is_Derivative else u.func.__name__ for u in eom.speeds]
     speeds = np.array([solution.get(f"{n}_d", float(problem.rates.get(n, 0))) for n in owners])
     udot = np.array([solution.get(f"{n}_dd", float(problem.accelerations.get(n, 0))) for n in owners])
-    inputs = {**problem.inputs, **{key[1].func.__name__: solution[key[1].func.__name__] for key in problem.free}}
+    inputs = {
+        **problem.inputs,
+        **{key[1].func.__name__: solution[key[1].func.__name__] for key in problem.free},
+    }
     values = {p.name: float(problem.values[p.name]) for p in eom.parameters} | dict(problem.values)
     mass, force = mass_and_force(eom, q, speeds, values, inputs)
     scale = np.prod(np.linalg.norm(mass, axis=1)) or 1.0

@@ -70,7 +70,9 @@ class ExactSample:
             if key[0] in ("sine", "cosine"):
                 self._on_circle(key)
             else:  # roots and calls: any number will do, they are independent of the rest
-                self._values[index] = self._plain.get(key, self._random() if index in self._ring.definitions else Fraction(0))
+                self._values[index] = self._plain.get(
+                    key, self._random() if index in self._ring.definitions else Fraction(0)
+                )
         return self._values[index]
 
     def _on_circle(self, key: tuple[Any, ...]) -> None:

@@ -68,7 +68,9 @@ class LinearSystem:
 
 def _rounded(matrix: Any) -> sm.Matrix:
     if isinstance(matrix, np.ndarray):
-        return sm.Matrix(matrix.shape[0], matrix.shape[1], lambda i, j: sm.Float(f"{matrix[i, j] + 0.0:.5g}", 5))
+        return sm.Matrix(
+            matrix.shape[0], matrix.shape[1], lambda i, j: sm.Float(f"{matrix[i, j] + 0.0:.5g}", 5)
+        )
     return matrix
 
 
@@ -144,7 +146,9 @@ def _as_equilibrium(
 ) -> Equilibrium:
     """The state of linearization with the parameters and inputs that were used."""
     n, m = len(eom.coordinates), len(eom.speeds)
-    q, u, udot = (np.array([float(x) for x in part]) for part in (state[:n], state[n : n + m], state[n + m :]))
+    q, u, udot = (
+        np.array([float(x) for x in part]) for part in (state[:n], state[n : n + m], state[n + m :])
+    )
     mass, force = mass_and_force(eom, q, u, values, given)
     residual = float(np.max(np.abs(mass @ udot - force), initial=0.0))
     names = tuple(c.func.__name__ for c in eom.coordinates)
@@ -202,10 +206,21 @@ def compiled_blocks(eom: EquationsOfMotion, target: str) -> Any:
 def block_shapes(eom: EquationsOfMotion) -> dict[str, tuple[int, int]]:
     """Shape of every block, in the order in which compiled code returns them."""
     n, m, w = len(eom.coordinates), len(eom.speeds), len(eom.inputs)
-    return {"M": (m, m), "C": (m, m), "K": (m, n), "B0": (m, w), "B1": (m, w), "B2": (m, w), "Gq": (n, n), "G": (n, m)}
+    return {
+        "M": (m, m),
+        "C": (m, m),
+        "K": (m, n),
+        "B0": (m, w),
+        "B1": (m, w),
+        "B2": (m, w),
+        "Gq": (n, n),
+        "G": (n, m),
+    }
 
 
-def _numeric(eom: EquationsOfMotion, state: list[Any], values: Mapping[str, float], given: Mapping[str, Any]) -> tuple:
+def _numeric(
+    eom: EquationsOfMotion, state: list[Any], values: Mapping[str, float], given: Mapping[str, Any]
+) -> tuple:
     n, m = len(eom.coordinates), len(eom.speeds)
     try:
         q, u, udot = state[:n], state[n : n + m], [float(x) for x in state[n + m :]]
@@ -219,7 +234,9 @@ def _numeric(eom: EquationsOfMotion, state: list[Any], values: Mapping[str, floa
         blocks[name] = flat[start : start + shape[0] * shape[1]].reshape(shape)
         start += shape[0] * shape[1]
     if not np.all(np.isfinite(flat)):
-        raise EngdynError("the linearized equations are not finite there: a root or a quotient has no derivative")
+        raise EngdynError(
+            "the linearized equations are not finite there: a root or a quotient has no derivative"
+        )
     state_matrix = assemble(blocks)
     force = (-blocks["B0"], -blocks["B1"], -blocks["B2"])
     return blocks["M"], blocks["C"], blocks["K"], tuple(b + 0.0 for b in force), state_matrix
@@ -258,7 +275,9 @@ def _symbolic(eom: EquationsOfMotion, state: list[Any], given: Mapping[str, Any]
     blocks = {name: matrix(name) for name in BLOCKS}
     left = [e for block in blocks.values() for e in block if e.has(t, sm.Derivative)]
     if left:
-        raise EngdynError(f"linearized coefficients depend on time: {left[0]}; linearize about a steady motion")
+        raise EngdynError(
+            f"linearized coefficients depend on time: {left[0]}; linearize about a steady motion"
+        )
     inverse = blocks["M"].LUsolve(blocks["K"].row_join(blocks["C"]))
     state_matrix = blocks["Gq"].row_join(blocks["G"]).col_join(-inverse)
     return blocks["M"], blocks["C"], blocks["K"], tuple(-blocks[b] for b in ("B0", "B1", "B2")), state_matrix
@@ -290,6 +309,8 @@ def sorted_eigenvalues(found: np.ndarray) -> np.ndarray:
     """Eigenvalues along the last axis by falling real part, +imaginary before −imaginary."""
     found = np.asarray(found, dtype=complex)
     scale = np.max(np.abs(found), axis=-1, keepdims=True)
-    rounded = np.round(found.real / np.where(scale == 0, 1, scale), 10)  # pairs keep together despite rounding
+    rounded = np.round(
+        found.real / np.where(scale == 0, 1, scale), 10
+    )  # pairs keep together despite rounding
     order = np.lexsort((-found.imag, -np.abs(found.imag), -rounded), axis=-1)
     return np.take_along_axis(found, order, axis=-1)

@@ -40,7 +40,9 @@ class Stability:
     eigenvalues: np.ndarray
 
     def __repr__(self) -> str:
-        neutral = f" + {self.neutral} zero eigenvalue{'s' if self.neutral > 1 else ''}" if self.neutral else ""
+        neutral = (
+            f" + {self.neutral} zero eigenvalue{'s' if self.neutral > 1 else ''}" if self.neutral else ""
+        )
         shown = ", ".join(_digits(x) for x in self.eigenvalues)
         return f"{self.verdict}{neutral}; eigenvalues [1/s]: {shown}"
 
@@ -112,7 +114,8 @@ def _exact_state_matrix(linear: LinearSystem, seed: int) -> list[list[Fraction]]
     sample = ExactSample(linear, random.Random(seed))
     blocks: dict[str, list[list[Element]]] = small_motion(linear.eom)
     numbers: dict[str, Any] = {
-        name: [[sample.value(entry) for entry in row] for row in blocks[name]] for name in ("M", "C", "K", "Gq", "G")
+        name: [[sample.value(entry) for entry in row] for row in blocks[name]]
+        for name in ("M", "C", "K", "Gq", "G")
     }
     lower = _solve(numbers["M"], [[*k, *c] for k, c in zip(numbers["K"], numbers["C"], strict=True)])
     upper = [[*a, *b] for a, b in zip(numbers["Gq"], numbers["G"], strict=True)]
@@ -142,7 +145,13 @@ def _trailing_zeros(matrix: list[list[Fraction]]) -> int:
     n = len(matrix)
     power = matrix
     while True:
-        squared = [[sum((a * b for a, b in zip(row, column, strict=True)), Fraction(0)) for column in zip(*power, strict=True)] for row in power]
+        squared = [
+            [
+                sum((a * b for a, b in zip(row, column, strict=True)), Fraction(0))
+                for column in zip(*power, strict=True)
+            ]
+            for row in power
+        ]
         if _rank(squared) == _rank(power):
             return n - _rank(power)
         power = squared

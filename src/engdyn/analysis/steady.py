@@ -78,7 +78,10 @@ class SteadyProblem:
     ):
         self.eom, self.ring = eom, eom.ring
         self.names = [q.func.__name__ for q in eom.coordinates]
-        self.rates, self.accelerations = (self._by_coordinate(given, what) for given, what in ((rates, "rates"), (accelerations, "accelerations")))
+        self.rates, self.accelerations = (
+            self._by_coordinate(given, what)
+            for given, what in ((rates, "rates"), (accelerations, "accelerations"))
+        )
         self.free = self._free_inputs(free)
         self.values, self.inputs = values, dict(inputs or {})
         self._numbers = self._known_numbers(keep)
@@ -105,7 +108,9 @@ class SteadyProblem:
         names = [free] if isinstance(free, str) else list(free)
         for name in names:
             if name not in known:
-                raise EngdynError(f"free names the input {name!r}: the equations have {', '.join(known) or 'none'}")
+                raise EngdynError(
+                    f"free names the input {name!r}: the equations have {', '.join(known) or 'none'}"
+                )
         return [("function", known[name], 0) for name in names]
 
     def _known_numbers(self, keep: frozenset[Key]) -> dict[Key, Fraction]:
@@ -118,7 +123,11 @@ class SteadyProblem:
         order = [(w, k) for w in eom.inputs for k in (0, 1, 2)]
         for (w, k), value in zip(order, triples, strict=True):
             default = eom.defaults.get(w)
-            moving = default is not None and w.func.__name__ not in self.inputs and sm.sympify(default[k]).has(dynamicsymbols._t)
+            moving = (
+                default is not None
+                and w.func.__name__ not in self.inputs
+                and sm.sympify(default[k]).has(dynamicsymbols._t)
+            )
             if not moving:
                 numbers["function", w, k] = as_rational(value)
         for key in (*self.free, *keep):
@@ -147,7 +156,9 @@ class SteadyProblem:
                 open_speeds.append((key, name))
         rows = self._with_numbers(rows, motion, inner)
         self.neutral = [q.func.__name__ for q in eom.coordinates if not self._occurs(q, rows)]
-        unknowns = [Unknown(("function", q, 0), q.func.__name__) for q in eom.coordinates if self._occurs(q, rows)]
+        unknowns = [
+            Unknown(("function", q, 0), q.func.__name__) for q in eom.coordinates if self._occurs(q, rows)
+        ]
         for key, name in open_speeds:
             rows, unknown = self._ignorable(key, name, rows, inner)
             unknowns += unknown
@@ -169,7 +180,9 @@ class SteadyProblem:
                 rows.append(rate - ring.constant(self.rates.get(q.func.__name__, Fraction(0))))
         return rows
 
-    def _ignorable(self, key: Key, name: str, rows: list[Element], inner: set[int]) -> tuple[list[Element], list[Unknown]]:
+    def _ignorable(
+        self, key: Key, name: str, rows: list[Element], inner: set[int]
+    ) -> tuple[list[Element], list[Unknown]]:
         """The unknown that stands in for an ignorable coordinate: its rate, else its acceleration."""
         ring = self.ring
         acceleration = (key[0], key[1], key[2] + 1)
@@ -181,7 +194,9 @@ class SteadyProblem:
     def _indexed(self, numbers: Mapping[Key, Fraction]) -> dict[int, Fraction]:
         return {self.ring.index[key]: value for key, value in numbers.items() if key in self.ring.index}
 
-    def _with_numbers(self, rows: Sequence[Element], numbers: Mapping[Key, Fraction], inner: set[int]) -> list[Element]:
+    def _with_numbers(
+        self, rows: Sequence[Element], numbers: Mapping[Key, Fraction], inner: set[int]
+    ) -> list[Element]:
         indexed = {i: value for i, value in self._indexed(numbers).items() if i not in inner}
         return [row.specialize(indexed) for row in rows]
 
@@ -205,7 +220,11 @@ class SteadyProblem:
         return ("function", q, 0) in self.contents(rows)
 
     def _check_time(self) -> None:
-        moving = [key for key in self.contents(self.rows) if key == ("symbol", dynamicsymbols._t) or self._is_moving(key)]
+        moving = [
+            key
+            for key in self.contents(self.rows)
+            if key == ("symbol", dynamicsymbols._t) or self._is_moving(key)
+        ]
         if moving:
             raise EngdynError(
                 f"the equations contain time explicitly (through {', '.join(sorted(str(k[1]) for k in moving))}): they have "
@@ -214,7 +233,13 @@ class SteadyProblem:
 
     def _is_moving(self, key: Key) -> bool:
         unknown = {u.key for u in self.unknowns}
-        return key[0] == "function" and key not in unknown and key not in self.constants and key[1] in self.eom.defaults and key[2] == 0
+        return (
+            key[0] == "function"
+            and key not in unknown
+            and key not in self.constants
+            and key[1] in self.eom.defaults
+            and key[2] == 0
+        )
 
     def _drop_constant_rows(self, keep: frozenset[Key]) -> None:
         """Rows without unknowns are either satisfied or make an equilibrium impossible."""

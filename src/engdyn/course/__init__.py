@@ -1,0 +1,14 @@
+"""The exercises of the course: ``check`` an answer, see your own ``variant`` of the numbers, list ``exercises``."""
+
+from __future__ import annotations
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "checking": ["check"],
+        "registry": ["exercise", "exercises", "variant"],
+        "verdict": ["Verdict"],
+    },
+)

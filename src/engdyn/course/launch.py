@@ -6,6 +6,7 @@ import importlib.util
 import json
 import os
 import secrets
+import signal
 import socket
 import subprocess
 import sys
@@ -83,12 +84,20 @@ def open_lab(root: str | Path, *, port: int | None = None, browser: bool = True)
     print("Ready in a few seconds. To stop it, press Ctrl-C here.", flush=True)
     with tempfile.TemporaryDirectory(prefix="engdyn-lab-") as private:
         command, environment = lab_process(Path(private), settings)
-        with subprocess.Popen(command, env=environment) as lab:
+        return _run_until_stopped(command, environment)
+
+
+def _run_until_stopped(command: list[str], environment: dict[str, str]) -> int:
+    with subprocess.Popen(command, env=environment) as lab:
+        previous = signal.signal(signal.SIGTERM, lambda *_: lab.terminate())
+        try:
             while True:
                 try:
                     return lab.wait()
                 except KeyboardInterrupt:  # JupyterLab got it too and asks whether to stop
                     continue
+        finally:
+            signal.signal(signal.SIGTERM, previous)
 
 
 def lab_process(private: Path, settings: dict[str, Any]) -> tuple[list[str], dict[str, str]]:

@@ -8,6 +8,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "alternative": ["alt", "show"],
+        "charts": ["flow_chart"],
         "drawing": ["draw"],
         "energy": ["potential_energy"],
         "equilibria": ["branches", "equilibrium_poses"],

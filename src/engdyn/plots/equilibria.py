@@ -210,8 +210,8 @@ def _runs(branch_set: BranchSet, index: int, kind: bool) -> tuple[NDArray[np.flo
 def _judged(branch: Any, points: Sequence[Any]) -> tuple[NDArray, NDArray, NDArray[np.bool_]]:
     """Return parameter, coordinates and stability along a branch, changing exactly where branches meet.
 
-    A state at a meeting point is marginal: it takes the stability of what follows. Where the stability changes
-    between two states, the meeting point between them is inserted.
+    A state at a meeting point is marginal: it takes the stability of what follows. Where the stability
+    changes between two states, the meeting point between them is inserted.
     """
     parameter, q, stable = (np.array(part) for part in (branch.parameter, branch.q, branch.stable))
     for point in points:
@@ -222,15 +222,10 @@ def _judged(branch: Any, points: Sequence[Any]) -> tuple[NDArray, NDArray, NDArr
         for i in np.flatnonzero(apart < 1e-6):
             stable[i] = stable[i + 1] if i + 1 < len(stable) else stable[i - 1]
         for i in np.flatnonzero(np.diff(stable)):
-            if (
-                apart[[i, i + 1]].max() <= 1.01 * np.max(abs(states[i + 1] - states[i]) / scale)
-                and apart[i + 1] > 1e-6
-            ):
-                parameter, q = (
-                    np.insert(parameter, i + 1, point.parameter),
-                    np.insert(q, i + 1, point.q, axis=0),
-                )
-                stable = np.insert(stable, i + 1, stable[i + 1])
+            step = 1.01 * np.max(abs(states[i + 1] - states[i]) / scale)
+            if apart[i] <= step and 1e-6 < apart[i + 1] <= step:
+                parameter = np.insert(parameter, i + 1, point.parameter)
+                q, stable = np.insert(q, i + 1, point.q, axis=0), np.insert(stable, i + 1, stable[i + 1])
                 break
     return parameter, q, stable
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import cos, pi, sin
 
 import sympy as sm
 from sympy.physics.mechanics import Force, Particle, Point, ReferenceFrame, dynamicsymbols
 
+from engdyn import shapes as sh
 from engdyn.modeling.newton import FreeBody
 from engdyn.system import Coordinate, Input, Parameter, System
 
@@ -65,6 +66,39 @@ def free_bodies() -> list[FreeBody]:
     return [ball, collar]
 
 
+def shapes(q: list[float], values: dict[str, float]) -> list:
+    """Side view with P at the origin; radii of balls and collar are fractions of the arm length."""
+    theta, l = q[0], values["l"]
+    right, left = (l * sin(theta), -l * cos(theta)), (-l * sin(theta), -l * cos(theta))
+    collar = (0.0, -2.0 * l * cos(theta))
+    top, foot = 0.45 * l, -2.75 * l
+    under, flange = collar[1] - 0.09 * l, foot + 0.22 * l
+    outward = 1.0 if theta >= 0.0 else -1.0
+    return [
+        sh.Ground((-0.3 * l, foot), (0.3 * l, foot)),
+        sh.Link((0.0, foot), (0.0, top)),
+        sh.MomentArrow((0.0, 0.32 * l), 0.16 * l, 0.75 * pi, 2.25 * pi, r"$\Omega$", y_axis=(0.0, 0.4), role="reference"),
+        sh.Spring((0.0, 0.0), collar, coils=9, width=0.13 * l),
+        sh.Label((-0.06 * l, 0.35 * collar[1]), "$k$", (-1.0, 0.0)),
+        sh.Link((-0.13 * l, flange), (0.0, flange), role="damper"),
+        sh.Damper((-0.13 * l, flange), (-0.13 * l, under), "$c_c$", width=0.1 * l),
+        sh.Link((0.0, 0.0), right),
+        sh.Link((0.0, 0.0), left),
+        sh.Link(right, collar),
+        sh.Link(left, collar),
+        sh.Box(collar, (0.46 * l, 0.18 * l), label="$M_c$"),
+        sh.Disc(right, 0.11 * l, label="$m$"),
+        sh.Disc(left, 0.11 * l, label="$m$"),
+        sh.TorsionalDamper((0.0, 0.0), 0.3 * l, -pi / 2, -pi / 2 - theta, "$c_p$"),
+        sh.Pin((0.0, 0.0), "$P$"),
+        sh.AngleArrow((0.0, 0.0), 0.42 * l, -pi / 2, theta - pi / 2, r"$\theta$"),
+        sh.Dimension((0.0, 0.0), right, "$l$", offset=0.34 * l * outward),
+        sh.Dimension(right, collar, "$l$", offset=0.34 * l * outward),
+        sh.ForceArrow((0.17 * l, under - 0.36 * l), (0.17 * l, under), "$F$"),
+        sh.GravityArrow((-1.15 * l, 0.3 * l), (-1.15 * l, -0.05 * l), "$g$"),
+    ]
+
+
 def build() -> System:
     """The flyball governor as a System."""
     lift = 2 * l * (1 - sm.cos(theta))
@@ -98,4 +132,5 @@ def build() -> System:
         frame=ground,
         free_bodies=free_bodies,
         unknowns=(T_1, T_2, N_a),
+        shapes=shapes,
     )

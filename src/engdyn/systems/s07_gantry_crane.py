@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import cos, pi, sin
 
 import sympy as sm
 from sympy.physics.mechanics import Force, Particle, Point, ReferenceFrame, RigidBody, Torque, dynamicsymbols, inertia
 
+from engdyn import shapes as sh
 from engdyn.modeling.newton import FreeBody
 from engdyn.system import Coordinate, Input, Parameter, System
 
@@ -60,6 +61,41 @@ def free_bodies() -> list[FreeBody]:
     return [trolley, container]
 
 
+def shapes(q: list[float], values: dict[str, float]) -> list:
+    """Side view, hinge at (x, 0); trolley and container sizes are fractions of the spreader length."""
+    x, theta, L = q[0], q[1], values["L"]
+    hinge = (x, 0.0)
+    center = (x + L * sin(theta), -L * cos(theta))
+    wheel, rail = 0.045 * L, -0.075 * L
+    left, right = min(0.0, x) - 0.75 * L, max(0.0, x) + 0.65 * L
+    across, along = 0.24 * L, 0.13 * L
+    # The wind pushes the face on the right, whichever that is.
+    reach = across if cos(theta) >= 0.0 else -across
+    side = (center[0] + reach * cos(theta), center[1] + reach * sin(theta))
+    return [
+        sh.Ground((left, rail), (right, rail)),
+        sh.Ground((left, 0.14 * L), (left, rail)),
+        sh.Damper((left, 0.0), (x - 0.16 * L, 0.0), "$c_x$", width=0.06 * L),
+        sh.Box((x, 0.0), (0.32 * L, 0.1 * L), label=""),
+        sh.Disc((x - 0.1 * L, rail + 0.03 * L), 0.03 * L),
+        sh.Disc((x + 0.1 * L, rail + 0.03 * L), 0.03 * L),
+        sh.Label((x - 0.11 * L, 0.05 * L), "$M_t$", (-1.0, 1.0)),
+        sh.CenterLine(hinge, (x, -0.75 * L)),
+        sh.Link(hinge, center),
+        sh.Box(center, (2.0 * across, 2.0 * along), angle=theta),
+        sh.Label((center[0] - 0.12 * L * cos(theta), center[1] - 0.12 * L * sin(theta)), "$m,\\ J_G$"),
+        sh.CenterOfMass(center, "$G$"),
+        sh.TorsionalDamper(hinge, 0.2 * L, -pi / 2, theta - pi / 2, "$c_h$"),
+        sh.Pin(hinge),
+        sh.AngleArrow(hinge, 0.45 * L, -pi / 2, theta - pi / 2, r"$\theta$"),
+        sh.CoordinateArrow((0.0, 0.22 * L), (x, 0.22 * L), "$x$"),
+        sh.Dimension(hinge, center, "$L$", offset=-0.44 * L),
+        sh.ForceArrow((x + 0.16 * L, 0.0), (x + 0.42 * L, 0.0), "$F$"),
+        sh.ForceArrow(side, (side[0] + 0.26 * L, side[1]), "$W$"),
+        sh.GravityArrow((left + 0.1 * L, -0.4 * L), (left + 0.1 * L, -0.65 * L), "$g$"),
+    ]
+
+
 def build() -> System:
     """The gantry crane as a System."""
     v_x = x_d + L * sm.cos(theta) * theta_d  # of the container's mass center
@@ -93,4 +129,5 @@ def build() -> System:
         frame=ground,
         free_bodies=free_bodies,
         unknowns=(H_x, H_y, N_r),
+        shapes=shapes,
     )

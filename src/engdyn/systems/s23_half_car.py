@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from math import cos, sin
+
 import sympy as sm
 from sympy.physics.mechanics import Force, Particle, Point, ReferenceFrame, RigidBody, dynamicsymbols, inertia
 
+from engdyn import shapes as sh
 from engdyn.modeling.newton import FreeBody
 from engdyn.system import Coordinate, Input, Parameter, System
 
@@ -76,6 +79,65 @@ def free_bodies() -> list[FreeBody]:
     return [body, wheel_f, wheel_r]
 
 
+UP = (0.0, 1.0)
+
+
+def shapes(q: list[float], values: dict[str, float]) -> list:
+    """Side view, X counts from G; wheel radius and relaxed ride height are fractions of the wheelbase."""
+    z, theta, zf, zr = q
+    a, b = values["a"], values["b"]
+    base = a + b
+    level = 0.48 * base
+
+    def body(along, up):
+        return (along * cos(theta) - up * sin(theta), level + z + along * sin(theta) + up * cos(theta))
+
+    front, rear, G, roof = body(a, 0.0), body(-b, 0.0), body(0.0, 0.0), body(0.0, 0.27 * base)
+    nose, tail, low = a + 0.2 * base, -b - 0.2 * base, -0.15 * base
+    outline = [(nose, -0.03 * base), (nose, 0.08 * base), (a, 0.13 * base), (a - 0.16 * base, 0.26 * base)]
+    outline += [(tail + 0.22 * base, 0.28 * base), (tail, 0.15 * base), (tail, -0.03 * base)]
+    return [
+        sh.Polygon([body(*point) for point in outline]),
+        *_corner(front, zf, "f", base, 1.0),
+        *_corner(rear, zr, "r", base, -1.0),
+        sh.Link(rear, front),
+        sh.CenterLine((-0.22 * base, level), (0.02 * base, level), role="coordinate"),
+        sh.CenterLine(G, (G[0] + 0.36 * base, G[1]), role="coordinate"),
+        sh.CenterOfMass(G, "$G$"),
+        sh.Label(body(-0.12 * base, 0.17 * base), "$m_s,\\ J$"),
+        sh.CoordinateArrow((-0.17 * base, level), (-0.17 * base, G[1]), "$z$", positive=UP),
+        sh.AngleArrow(G, 0.3 * base, 0.0, theta, r"$\theta$"),
+        sh.ForceArrow(roof, (roof[0], roof[1] + 0.17 * base), "$F_z$"),
+        sh.Dimension((G[0], low), (front[0], low), "$a$"),
+        sh.Dimension((rear[0], low), (G[0], low), "$b$"),
+        sh.CenterLine((a + 0.06 * base, level + 0.3 * base), (a + 0.24 * base, level + 0.3 * base), "$v_x$", arrow=True),
+        sh.GravityArrow((tail, level + 0.42 * base), (tail, level + 0.26 * base), "$g$"),
+    ]
+
+
+def _corner(attachment, rise, end, base, outward):
+    """Suspension, wheel, tire and road of one axle; ``outward`` is +1 at the front, -1 at the rear."""
+    radius, gap = 0.115 * base, 0.045 * base
+    x, top, hub = *attachment, radius + rise
+    bottom, beside = hub + 1.1 * radius, x + 0.18 * outward * base
+    inner, outer = x - outward * gap, x + outward * gap
+    return [
+        sh.Ground((x - 0.16 * base, 0.0), (x + 0.16 * base, 0.0)),
+        sh.Wheel((x, hub), radius, flat=0.0),
+        sh.Label((x - 0.8 * outward * radius, 0.55 * hub), f"$k_{{t{end}}}$", (-outward, 0.0)),
+        sh.Link((x, hub), (x, bottom)),
+        sh.Link((inner, bottom), (outer, bottom)),
+        sh.Spring((inner, bottom), (inner, top), coils=4, width=0.05 * base),
+        sh.Label((x - outward * 0.07 * base, (bottom + top) / 2), f"$k_{end}$", (-outward, 0.0)),
+        sh.Damper((outer, bottom), (outer, top), width=0.042 * base),
+        sh.Label((x + outward * 0.066 * base, (bottom + top) / 2), f"$c_{end}$", (outward, 0.0)),
+        sh.Pin(attachment),
+        sh.Label((x, hub), f"$m_{end}$"),
+        sh.CoordinateArrow((beside, radius), (beside, hub), f"$z_{end}$", positive=UP),
+        sh.ForceArrow((x + 0.1 * outward * base, -0.13 * base), (x + 0.1 * outward * base, 0.0), f"$y_{end}$"),
+    ]
+
+
 def build() -> System:
     """The half car as a System."""
     springs = k_f * stretch_f**2 / 2 + k_r * stretch_r**2 / 2
@@ -112,4 +174,5 @@ def build() -> System:
         generalized_forces={z: F_z},
         frame=ground,
         free_bodies=free_bodies,
+        shapes=shapes,
     )

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 
 from engdyn.errors import EngdynError
 from engdyn.plots.axes import MARKS, is_stable
@@ -34,6 +35,9 @@ INTERESTING = ("rad/s", "m/s", "N m/rad", "N/m", "rad", "m")
 MANY = 6
 """So many equilibria are told one by one."""
 
+REMEMBERED = 16
+"""So many branch diagrams are kept, for sliders that go back and forth."""
+
 
 @dataclass(frozen=True)
 class Found:
@@ -45,6 +49,7 @@ class Found:
     undecided: int
     branches: BranchSet | None
     trouble: str
+    late: bool
 
 
 def slider(parameter: Parameter) -> Slider:
@@ -86,7 +91,7 @@ class EquilibriumExplorer(Explorer):
     def __init__(self, system: str | int | System = "S07", **values: Any) -> None:
         self._own = {system.key: system} if isinstance(system, System) else {}
         self._systems: dict[str, System] = {}
-        self._follow = lru_cache(maxsize=16)(self._follow_anew)
+        self._followed: dict[tuple, tuple[BranchSet | None, str]] = {}
         super().__init__(system=system.key if isinstance(system, System) else _name(system), **values)
 
     def set(self, **values: Any) -> None:
@@ -121,9 +126,15 @@ class EquilibriumExplorer(Explorer):
     def model(self, state: Mapping[str, Any]) -> Found:
         system, values = self.system(state["system"]), self._values(state)
         found, judged = find(system, values)
-        branch_set, trouble = self._follow(*self._branch_key(state))
-        states, undecided = tuple(found), len(found.undecided)
-        return Found(states, tuple(judged), found.certified, undecided, branch_set, trouble)
+        key = self._branch_key(state)
+        # Following takes some tenths of a second: while a slider is dragged it waits.
+        late = self._haste is not None and key not in self._followed and self._key is not None
+        branch_set, trouble = (None, "") if late else self._follow(key)
+        if late:
+            self._complete_later()
+        return Found(
+            tuple(found), tuple(judged), found.certified, len(found.undecided), branch_set, trouble, late
+        )
 
     def _values(self, state: Mapping[str, Any]) -> dict[str, float]:
         return {p.name: state[p.name] for p in self.system(state["system"]).parameters}
@@ -132,17 +143,23 @@ class EquilibriumExplorer(Explorer):
         others = tuple((n, v) for n, v in self._values(state).items() if n != state["over"])
         return state["system"], state["over"], others
 
-    def _follow_anew(self, name: str, over: str, others: tuple) -> tuple[BranchSet | None, str]:
-        system = self.system(name)
-        control = slider(next(p for p in system.parameters if p.name == over))
-        try:
+    def _follow(self, key: tuple) -> tuple[BranchSet | None, str]:
+        """Return the branches, or why there are none; the last few are remembered."""
+        if key not in self._followed:
+            name, over, others = key
+            system = self.system(name)
+            control = slider(next(p for p in system.parameters if p.name == over))
             values = {**dict(others), over: control.value}
-            return follow(system, values, over, (control.low, control.high)), ""
-        except (EngdynError, ArithmeticError, np.linalg.LinAlgError) as error:
-            return None, str(error)
+            try:
+                self._followed[key] = follow(system, values, over, (control.low, control.high)), ""
+            except (EngdynError, ArithmeticError, np.linalg.LinAlgError) as error:
+                self._followed[key] = None, str(error)
+            for old in list(self._followed)[:-REMEMBERED]:
+                del self._followed[old]
+        return self._followed[key]
 
     def static_key(self, state: Mapping[str, Any], result: Found) -> Hashable:
-        return (*self._branch_key(state), state["coordinate"])
+        return self._key if result.late else (*self._branch_key(state), state["coordinate"])
 
     def draw_static(self, figure: Figure, state: Mapping[str, Any], result: Found) -> None:
         figure.add_axes((0.0, 0.0, 0.47, 1.0)).set_axis_off()
@@ -160,13 +177,15 @@ class EquilibriumExplorer(Explorer):
         else:
             left.text(0.5, 0.5, "no equilibrium", ha="center", va="center", transform=left.transAxes)
         poses = sorted([*left.collections, *left.texts], key=Artist.get_zorder)
-        marks = self._marks(right, state, result) if result.branches is not None else []
+        marks = _veil(right) if result.late else self._marks(right, state, result)
         for artist in (*poses, *marks):
             artist.set_animated(True)
         return [*poses, *marks]
 
     def _marks(self, ax: Axes, state: Mapping[str, Any], result: Found) -> list[Artist]:
         """Mark the present value and the equilibria there."""
+        if result.branches is None:
+            return []
         index = [c.name for c in self.system(state["system"]).coordinates].index(state["coordinate"])
         here = state[state["over"]]
         marks = [ax.axvline(here, color="black", linewidth=1.2, linestyle=":")]
@@ -189,6 +208,12 @@ class EquilibriumExplorer(Explorer):
         text = f"{count} equilibri{'um' if count == 1 else 'a'}" + (": " + "; ".join(told) if told else "")
         text += f"; and {count - MANY} more" if count > MANY else ""
         return f"{system.title}, {state['over']} = {number(state[state['over']])}: {text}.{_doubt(result)}"
+
+
+def _veil(ax: Axes) -> list[Artist]:
+    """Cover a diagram that is out of date."""
+    veil = Rectangle((0.0, 0.0), 1.0, 1.0, transform=ax.transAxes, facecolor="white", alpha=0.75, zorder=10.0)
+    return [ax.add_patch(veil)]
 
 
 def _value(value: float, unit: str) -> str:

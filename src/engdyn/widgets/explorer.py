@@ -7,6 +7,7 @@ without a browser.
 
 from __future__ import annotations
 
+import asyncio
 import base64
 import html
 import io
@@ -26,6 +27,9 @@ from engdyn.plots.words import number
 from engdyn.widgets.controls import Choice, Control, Slider
 
 __all__ = ["Explorer"]
+
+PATIENCE = 0.2
+"""Seconds of rest after which what is slow to compute is made up for."""
 
 
 class Explorer(ABC):
@@ -87,6 +91,8 @@ class Explorer(ABC):
         self._widgets: dict[str, Any] = {}
         self._state: dict[str, Any] = {}
         self._quiet = False
+        self._haste: asyncio.AbstractEventLoop | None = None
+        self._pending: asyncio.TimerHandle | None = None
         self._text, self._png = "", b""
         self._build_frame()
         self.set(**values)
@@ -150,6 +156,9 @@ class Explorer(ABC):
         return self._text
 
     def _render(self, changed: Sequence[str]) -> None:
+        if self._pending is not None:
+            self._pending.cancel()
+            self._pending = None
         with style():
             try:
                 result = self.model(self._state)
@@ -233,8 +242,19 @@ class Explorer(ABC):
             self._quiet = False
 
     def _moved(self, name: str, value: Any) -> None:
-        if not self._quiet:
+        """Follow a control; while it is dragged in a live notebook, slow parts of the picture may wait."""
+        if self._quiet:
+            return
+        self._haste = _running_loop()
+        try:
             self.set(**{name: value})
+        finally:
+            self._haste = None
+
+    def _complete_later(self) -> None:
+        """Draw again, completely, as soon as the controls have been at rest for `PATIENCE` seconds."""
+        if self._haste is not None:
+            self._pending = self._haste.call_later(PATIENCE, self._render, [])
 
     def __repr__(self) -> str:
         return self._text
@@ -253,3 +273,11 @@ def _encoded(figure: Figure) -> bytes:
         stream, "png", compress_level=1
     )
     return stream.getvalue()
+
+
+def _running_loop() -> asyncio.AbstractEventLoop | None:
+    """Return the event loop of a live kernel; None in a script or a test, where nothing may be put off."""
+    try:
+        return asyncio.get_running_loop()
+    except RuntimeError:
+        return None
