@@ -187,6 +187,7 @@ def install(python, extras):
     print("Installing the course and what it needs (first time: a few minutes)", flush=True)
     target = "{}[{}]".format(HERE, ",".join(sorted(extras)))
     command = [str(python), "-m", "pip", "install", "--disable-pip-version-check", "--no-input"]
+    command += ["--retries", "2"]
     command += ["-c", str(HERE / "constraints.txt"), "-e", target]
     lines = []
     with subprocess.Popen(
@@ -197,7 +198,7 @@ def install(python, extras):
             if line.strip().startswith(("Collecting", "Processing", "Building", "Installing")):
                 print("  " + line.strip()[:100], flush=True)
     if pip.returncode != 0:
-        print("".join(lines[-30:]), flush=True)
+        print("".join([line for line in lines if not line.startswith("WARNING")][-20:]), flush=True)
         raise SetupError(installation_advice("".join(lines)))
     print(f"Installed into {python.parent.parent}", flush=True)
 

@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 import tomllib
+import warnings
 import zipfile
 from importlib.metadata import version
 from pathlib import Path
@@ -95,6 +96,14 @@ def _lines(function: ast.FunctionDef) -> int:
 
 def test_the_companion_stays_small():
     assert sum(path.read_text(encoding="utf-8").count("\n") for path in SOURCES) <= PACKAGE_LINES
+
+
+@pytest.mark.parametrize("module", ["engdyn", "engdyn.algebra.ring", "tests.algebra.test_ring"])
+def test_a_warning_from_our_own_code_is_an_error(module):
+    with pytest.raises(DeprecationWarning):
+        warnings.warn_explicit("outdated", DeprecationWarning, "file.py", 1, module=module)
+    with pytest.raises(engdyn.EngdynWarning):
+        warnings.warn("mind this", engdyn.EngdynWarning, stacklevel=2)
 
 
 def test_nothing_is_simplified():

@@ -9,6 +9,7 @@ import difflib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import sympy as sm
@@ -159,6 +160,11 @@ class System:
     Appendix A of the course.  Both derivations are independent: :meth:`newton` uses the free
     bodies alone, :meth:`lagrange` the energies alone.
     """
+
+    kinetic_energy: sm.Expr = sm.S.Zero
+    potential_energy: sm.Expr = sm.S.Zero
+    dissipation: sm.Expr = sm.S.Zero
+    generalized_forces: Mapping[sm.Expr, sm.Expr] = MappingProxyType({})
 
     def __init__(
         self,

@@ -102,13 +102,14 @@ def test_functions_are_tight_on_exact_numbers_and_on_narrow_balls(balls, name, e
 def test_the_extreme_values_on_a_wide_ball_are_found(balls, name):
     function = balls.NAMESPACE[name]
     wide = function(balls.ball(-0.5, 2.0))
-    true = {
+    low, high = {
         "sin": (math.sin(-0.5), 1.0),
         "cos": (math.cos(2.0), 1.0),
         "square": (0.0, 4.0),
         "fabs": (0.0, 2.0),
-    }
-    low, high = true.get(name, (1.0, math.cosh(2.0)))
+        "cosh": (1.0, math.cosh(2.0)),
+        "tanh": (math.tanh(-0.5), math.tanh(2.0)),
+    }[name]
     assert balls.lower(wide) <= low + 1e-15  # low and high are rounded
     assert high - 1e-15 <= balls.upper(wide)
     if name in ("square", "fabs"):
@@ -175,6 +176,17 @@ def test_powers_of_a_ball_centered_on_zero(balls):
     assert balls.upper(power(x, 3)) == pytest.approx(1.0, abs=1e-6)
 
 
+def test_powers_with_an_exponent_that_is_no_integer(balls):
+    third, base = balls.ball(Fraction(1, 3)), balls.ball(2.0, 3.0)
+    with mpmath.workdps(60):
+        for exact in (mpmath.mpf(2), mpmath.mpf("2.5"), mpmath.mpf(3)):
+            assert encloses(balls, base**third, mpmath.cbrt(exact))
+            assert encloses(balls, 2.0**base, 2**exact)
+            assert encloses(balls, base**2, exact**2)
+    assert balls.width(base**third) < 0.25
+    assert not balls.is_finite(balls.ball(-1.0, 2.0) ** third)
+
+
 def test_what_is_undefined_somewhere_is_not_finite_and_stays_so(balls):
     n, ball = balls.NAMESPACE, balls.ball
     through_zero = ball(-1.0, 2.0)
@@ -198,7 +210,8 @@ def test_what_is_undefined_somewhere_is_not_finite_and_stays_so(balls):
     ]
     for b in undefined:
         functions = [n[name] for name in IDS if name not in ("tanh", "sin", "cos", "atan")] + [n["sign"]]
-        for result in (b, -b, b * 0, b + 1, 1 / b, 1 / (1 + n["square"](b)), *(f(b) for f in functions)):
+        results = [-b, b * 0, b + 1, 1 / b, b**2, b**3, abs(b), 1 / (1 + n["square"](b)), 1 / (1 + abs(b))]
+        for result in (b, *results, *(f(b) for f in functions)):
             assert not balls.is_finite(result)
             assert balls.contains_zero(result)
             assert balls.lower(result) == -math.inf

@@ -17,7 +17,7 @@ FOLDERS = ("notebooks", "solutions", "exercises")
 NOTEBOOKS = [path for folder in FOLDERS for path in sorted((CHECKOUT / folder).glob("*.ipynb"))]
 LESSONS = [path for path in NOTEBOOKS if path.parent.name == "notebooks"]
 CHAPTERS = [path for path in LESSONS if re.match(r"0[1-9]_", path.name)]
-CELL_LINES, FILE_SIZE = 15, 600_000  # lines of a code cell; bytes of a notebook with its pictures
+CELL_LINES, FILE_SIZE = 15, 1_000_000  # lines of a code cell; bytes of a notebook with its pictures
 SLIDE_TYPES = {"slide", "subslide", "fragment", "notes", "skip", "-"}
 
 

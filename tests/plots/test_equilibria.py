@@ -39,7 +39,7 @@ def test_poses_are_told_with_their_verdicts():
     words = ed.plots.alt(ax)
     assert "3 equilibria drawn on top of each other" in words
     assert "theta = 0.7727 rad (44.3°) (asymptotically stable)" in words
-    assert "theta = 0 rad (unstable (divergence))" in words
+    assert "theta = 0 rad (unstable, divergence)" in words
 
 
 def test_unstable_poses_are_broken_and_unfilled_stable_ones_solid():

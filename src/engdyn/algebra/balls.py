@@ -47,6 +47,15 @@ __all__ = [
 ]
 
 
+def _integer_power(x: Any, n: int, square: Callable[[Any], Any]) -> Any:
+    if n < 0:
+        return 1 / _integer_power(x, -n, square)
+    if n < 2:
+        return x if n else x * 0 + 1
+    half = square(_integer_power(x, n // 2, square))
+    return half * x if n % 2 else half
+
+
 class _ArbBalls:
     """Primitives on ``flint.arb``: a 53-bit midpoint with a 30-bit radius, computed in C."""
 
@@ -147,8 +156,9 @@ class _IntervalBalls:
         divide, divide_into = self.type.__truediv__, self.type.__rtruediv__
         self.type.__truediv__ = lambda x, y: self._finite(divide(x, y), x, y)
         self.type.__rtruediv__ = lambda x, y: self._finite(divide_into(x, y), x, y)
-        self.type.__pow__, self.type.__rpow__ = self._raised, lambda x, y: self._raised(_number(y), x)
-        self.type.__abs__ = self.fabs
+        self.type.__pow__ = lambda x, exponent: self._raise(x, exponent)
+        self.type.__rpow__ = lambda x, base: self._raise(base, x)
+        self.type.__abs__ = lambda x: self.fabs(x)
         self.functions = {name: getattr(self, name) for name in ("sin", "cos", "tan", "square", "fabs")}
         for name, low, high in self.domains:
             self.functions[name] = self._on_domain(name, libmp.from_float(low), libmp.from_float(high))
@@ -161,10 +171,11 @@ class _IntervalBalls:
         bounded = all(self.is_finite(x) for x in (result, *operands) if self.is_ball(x))
         return result if bounded else self.undefined
 
-    def _raised(self, x: Any, exponent: Any) -> Any:
+    def _raise(self, base: Any, exponent: Any) -> Any:
+        base = self.type(base)
         if isinstance(exponent, int):
-            return power(x, exponent)
-        return self.functions["exp"](self.functions["log"](x) * exponent)
+            return _integer_power(base, exponent, self.square)
+        return self.functions["exp"](self.functions["log"](base) * exponent)
 
     def _on_domain(self, name: str, least: Any, greatest: Any) -> Callable[[Any], Any]:
         """Return an elementary function that is monotonic (or even, cosh) on its domain, undefined beyond."""
@@ -319,13 +330,7 @@ def intersection(a: Any, b: Any) -> Any:
 
 def power(x: Any, n: int) -> Any:
     """Return x^n for an integer n; an even power of a ball through zero is not negative."""
-    x = _number(x)
-    if n < 0:
-        return 1 / power(x, -n)
-    if n < 2:
-        return x if n else x * 0 + 1
-    half = NAMESPACE["square"](power(x, n // 2))
-    return half * x if n % 2 else half
+    return _integer_power(_number(x), n, _backend.square)
 
 
 def sign(x: Any) -> Any:

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from fractions import Fraction
-from math import gcd, isqrt, lcm
 
 import sympy as sm
 
 from engdyn.algebra.ring import Definition, Element, Ring, add_angles
+from engdyn.algebra.roots import define_call, define_magnitude, define_root
 from engdyn.algebra.scan import (
     RECIPROCAL,
     Key,
@@ -21,12 +21,12 @@ from engdyn.algebra.scan import (
     angle_terms,
     as_fraction,
     derivative_key,
+    exact_phase,
     half_power,
     independent_atoms,
     is_opaque,
     slopes,
 )
-from engdyn.errors import EngdynError
 
 __all__ = ["Converter"]
 
@@ -60,10 +60,12 @@ class Converter:
         self._known: dict[sm.Basic, Element] = {}
         self._dependent: dict[Key, Element] = {}
         for base, divisor in scan.divisors.items():
-            self._define_angle(base, divisor)
+            self.ring.define_angle(base, divisor)
         for key in scan.dependent:
             self._define(key)
         self._fill_slopes(scan.dependent)
+        for base, divisor in scan.divisors.items():
+            self.ring.set_angle(base, divisor, self.convert(base) * Fraction(1, divisor))
 
     def convert(self, expr: sm.Expr) -> Element:
         """The ring element of an expression whose generators the ring has."""
@@ -122,78 +124,42 @@ class Converter:
         """Cosine and sine of an angle."""
         pair = self.ring.one, self.ring.zero
         for base, factor in angle_terms(angle):
-            if base in self._divisors:
+            exact = exact_phase(factor) if base is sm.S.Pi else None
+            if exact is None:
                 divisor = self._divisors[base]
                 part = self.ring.multiple_angle(base, divisor, int(factor * divisor))
             else:
-                phase = sm.Rational(factor.numerator, factor.denominator) * base
-                part = self.convert(sm.cos(phase)), self.convert(sm.sin(phase))
+                part = self.convert(exact[0]), self.convert(exact[1])
             pair = add_angles(pair, part)
         return pair
 
-    def _define_angle(self, base: sm.Expr, divisor: int) -> None:
-        ring = self.ring
-        angle = self.convert(base) * Fraction(1, divisor)
-        cosine, sine = ring.generator(("cosine", base, divisor)), ring.generator(("sine", base, divisor))
-        ring.define(ring.index["sine", base, divisor], Definition("sine", (angle,), (cosine,)))
-        ring.define(ring.index["cosine", base, divisor], Definition("cosine", (angle,), (-sine,)))
-
     def _define(self, key: Key) -> None:
-        if key[0] == "root":
-            self._define_root(key)
-        elif key[0] == "magnitude":
-            self._define_magnitude(key)
+        kind, expr = key
+        index = self.ring.index[key]
+        if kind == "root":
+            self._dependent[key] = define_root(self.ring, index, self.convert(expr))
+        elif kind == "denominator":
+            self._dependent[key] = self._define_denominator(expr, index)
+        elif kind == "magnitude":
+            self._dependent[key] = define_magnitude(self.ring, index, self.convert(expr))
         else:
             self._define_call(key)
 
-    def _define_root(self, key: Key) -> None:
-        """√radicand with r² = radicand: the same radicand gives the same generator."""
-        ring, radicand = self.ring, self.convert(key[1])
-        whole, content = squarefree_content(radicand)
-        same = next((k for k, d in ring.definitions.items() if d.kind == "root" and d.arguments[0].equals(whole)), None)
-        index = ring.index[key] if same is None else same
-        generator = Element(ring, ring.polynomials.gens[index])
-        if same is None:
-            slope = generator / (whole * 2)
-            ring.define(index, Definition("root", (whole,), (slope,)))
-        self._dependent[key] = generator * content
-
     def _root(self, base: sm.Expr) -> Element:
-        radicand = self.convert(base)
-        root = self._dependent["root", base]
-        if radicand.denominator is None:
-            return root
-        return root / self._magnitude_of_denominator(radicand, base)
+        """√(n/d) as √(n d)/|d|."""
+        return self._dependent["root", base] / self._dependent["denominator", base]
 
-    def _magnitude_of_denominator(self, radicand: Element, base: sm.Expr) -> Element:
+    def _define_denominator(self, base: sm.Expr, index: int) -> Element:
         """|d| of a radicand n/d: d itself where it is made of positive symbols only."""
-        below = Element(self.ring, radicand.denominator)
-        positive = all(
-            key[0] == "symbol" and (key[1].is_positive or key[1] is sm.S.Pi)
-            for key in (self.ring.keys[i] for i in below.generators())
-        ) and all(c > 0 for _, c in self.ring.polynomials.terms(below.numerator))
-        if positive:
+        ring, radicand = self.ring, self.convert(base)
+        if radicand.denominator is None:
+            return ring.one
+        below = Element(ring, radicand.denominator)
+        symbols = [ring.keys[i] for i in below.generators()]
+        positive = all(key[0] == "symbol" and key[1].is_positive for key in symbols)
+        if positive and all(c > 0 for _, c in ring.polynomials.terms(below.numerator)):
             return below
-        return self._define_magnitude_at(self.ring.index["magnitude", sm.denom(sm.together(base))], below)
-
-    def _define_magnitude(self, key: Key) -> None:
-        """|x| with a² = x²; |x| and |−x| are one generator."""
-        argument, index = self.convert(key[1]), self.ring.index[key]
-        self._dependent[key] = self._define_magnitude_at(index, argument)
-
-    def _define_magnitude_at(self, index: int, argument: Element) -> Element:
-        ring = self.ring
-        if argument.as_rational() is not None:
-            return ring.constant(abs(argument.as_rational()))
-        if argument.denominator is not None:
-            raise EngdynError("the magnitude of a quotient is not supported: write |a|/|b| instead of |a/b|")
-        for i, definition in ring.definitions.items():
-            known = definition.arguments[0] if definition.kind == "magnitude" else None
-            if known is not None and (known.equals(argument) or known.equals(-argument)):
-                return Element(ring, ring.polynomials.gens[i])
-        generator = Element(ring, ring.polynomials.gens[index])
-        ring.define(index, Definition("magnitude", (argument,), (generator / argument,)))
-        return generator
+        return define_magnitude(ring, index, below)
 
     def _define_call(self, key: Key) -> None:
         """A function value: one generator per distinct argument list."""
@@ -205,13 +171,7 @@ class Converter:
             contains = frozenset(i for a in independent_atoms(expr) for i in self.convert(a).generators())
         else:
             arguments = tuple(self.convert(a) for a in expr.args)
-        for i, definition in ring.definitions.items():
-            if definition.kind == "call" and arguments and ring.keys[i][1].func is expr.func:
-                if all(a.equals(b) for a, b in zip(definition.arguments, arguments, strict=True)):
-                    self._dependent[key] = Element(ring, ring.polynomials.gens[i])
-                    return
-        ring.define(index, Definition("call", arguments, (), contains))
-        self._dependent[key] = Element(ring, ring.polynomials.gens[index])
+        self._dependent[key] = define_call(ring, index, Definition("call", arguments, (), contains))
 
     def _fill_slopes(self, keys: Iterable[Key]) -> None:
         for key in keys:
@@ -228,33 +188,3 @@ class Converter:
             definition.slopes = tuple(found)
             unknown = [a for a, s in zip(definition.arguments, found, strict=True) if s is None]
             definition.contains = frozenset(i for a in unknown for i in a.generators())
-
-
-def squarefree_content(radicand: Element) -> tuple[Element, Fraction]:
-    """A radicand n/d as content² · whole with an integer, square-free leading content.
-
-    √(n/d) is then content·√whole/|d|; here the product n·d stands in for n/d.
-    """
-    ring, ps = radicand.ring, radicand.ring.polynomials
-    product = radicand if radicand.denominator is None else Element(ring, radicand.numerator * radicand.denominator)
-    product = Element(ring, ring.reduce(product.numerator))
-    coefficients = [c for _, c in ps.terms(product.numerator)]
-    if not coefficients:
-        return product, Fraction(0)
-    below = lcm(*(c.denominator for c in coefficients))
-    content = Fraction(gcd(*(int(c * below) for c in coefficients)), below)
-    outside = Fraction(square_part(content.numerator * content.denominator), content.denominator)
-    return product * (1 / outside**2), outside
-
-
-def square_part(n: int) -> int:
-    """The largest integer whose square divides n, searched up to a small bound."""
-    root = isqrt(n)
-    if root * root == n:
-        return root
-    part = 1
-    for p in range(2, 1000):
-        while n % (p * p) == 0:
-            n //= p * p
-            part *= p
-    return part

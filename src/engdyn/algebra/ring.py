@@ -46,6 +46,13 @@ class Definition:
     slopes: tuple[Element | None, ...] = ()
     contains: frozenset[int] = frozenset()
 
+    @property
+    def square(self) -> Element | None:
+        """The square of a root or magnitude, None for other kinds."""
+        if self.kind == "root":
+            return self.arguments[0]
+        return self.arguments[0] * self.arguments[0] if self.kind == "magnitude" else None
+
 
 class Ring:
     """A ring with the given generators.
@@ -84,11 +91,20 @@ class Ring:
             _, angle, divisor = self.keys[index]
             cosine = self.polynomials.gens[self.index["cosine", angle, divisor]]
             self._relations.append((index, gen * gen + cosine * cosine - self.polynomials.one))
-        elif definition.kind == "root":
-            self._relations.append((index, gen * gen - definition.arguments[0].numerator))
-        elif definition.kind == "magnitude":
-            self._relations.append((index, gen * gen - (definition.arguments[0] ** 2).numerator))
+        elif definition.square is not None:
+            self._relations.append((index, gen * gen - definition.square.numerator))
         self._relations.sort(key=lambda relation: relation[0])
+
+    def define_angle(self, angle: Any, divisor: int) -> None:
+        """Make the generators of a base angle a sine and its cosine; :meth:`set_angle` completes them."""
+        cosine, sine = self.generator(("cosine", angle, divisor)), self.generator(("sine", angle, divisor))
+        self.define(self.index["sine", angle, divisor], Definition("sine", (), (cosine,)))
+        self.define(self.index["cosine", angle, divisor], Definition("cosine", (), (-sine,)))
+
+    def set_angle(self, angle: Any, divisor: int, value: Element) -> None:
+        """Record the value of a base angle, ``angle/divisor``, as an element."""
+        for kind in ("sine", "cosine"):
+            self.definitions[self.index[kind, angle, divisor]].arguments = (value,)
 
     def reduce(self, p: Any) -> Any:
         """Normal form of a polynomial: no generator with a relation beyond the first power."""

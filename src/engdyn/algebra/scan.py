@@ -17,7 +17,16 @@ from sympy.physics.vector import dynamicsymbols
 
 from engdyn.errors import EngdynError, OutsideRingError
 
-__all__ = ["Scan", "angle_terms", "as_fraction", "derivative_key", "half_power", "independent_atoms", "is_opaque"]
+__all__ = [
+    "Scan",
+    "angle_terms",
+    "as_fraction",
+    "derivative_key",
+    "exact_phase",
+    "half_power",
+    "independent_atoms",
+    "is_opaque",
+]
 
 Key = tuple[Any, ...]
 
@@ -34,6 +43,8 @@ def as_fraction(number: sm.Expr) -> Fraction:
     """A sympy number as a fraction; a float as the rational of its shortest decimal."""
     if isinstance(number, sm.Rational):
         return Fraction(int(number.p), int(number.q))
+    if number.is_finite and number._prec > 53:
+        return Fraction(str(number))  # a float of more digits than Python's: all of them count
     value = float(number)
     if value != value or value in (float("inf"), float("-inf")):
         raise OutsideRingError(f"{number} is not a finite number")
@@ -86,6 +97,13 @@ def angle_terms(angle: sm.Expr) -> list[tuple[sm.Expr, Fraction]]:
         coefficient, base = term.as_coeff_Mul()
         factors[base] = factors.get(base, Fraction(0)) + as_fraction(coefficient)
     return [(base, factor) for base, factor in factors.items() if factor]
+
+
+def exact_phase(factor: Fraction) -> tuple[sm.Expr, sm.Expr] | None:
+    """Cosine and sine of factor·π where they are made of square roots, None elsewhere."""
+    phase = sm.Rational(factor.numerator, factor.denominator) * sm.pi
+    pair = sm.cos(phase), sm.sin(phase)
+    return None if any(value.has(sm.cos, sm.sin) for value in pair) else pair
 
 
 class Scan:
@@ -161,11 +179,10 @@ class Scan:
 
     def _visit_angle(self, angle: sm.Expr) -> None:
         for base, factor in angle_terms(angle):
-            if base is sm.S.Pi:
-                phase = sm.Rational(factor.numerator, factor.denominator) * sm.pi
-                if not (sm.cos(phase).has(sm.cos, sm.sin) or sm.sin(phase).has(sm.cos, sm.sin)):
-                    self.read([sm.cos(phase), sm.sin(phase)])
-                    continue
+            exact = exact_phase(factor) if base is sm.S.Pi else None
+            if exact is not None:
+                self.read(exact)
+                continue
             self.divisors[base] = lcm(self.divisors.get(base, 1), factor.denominator)
             self._visit(base)
 
@@ -183,7 +200,7 @@ class Scan:
         if half_power(expr):
             self._visit(expr.base)
             self.dependent.setdefault(("root", expr.base))
-            self.dependent.setdefault(("magnitude", sm.denom(sm.together(expr.base))))
+            self.dependent.setdefault(("denominator", expr.base))
         elif isinstance(expr, sm.Abs | sm.sign):
             self._visit(expr.args[0])
             self.dependent.setdefault(("magnitude", expr.args[0]))

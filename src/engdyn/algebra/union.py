@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from math import lcm
+from typing import Any
 
 from engdyn.algebra.ring import Definition, Element, Ring
+from engdyn.algebra.roots import define_call, define_magnitude, define_root
 
 __all__ = ["Transfer", "common_ring"]
+
+#: Kinds of keys whose generators are defined by others.
+DEPENDENT = ("root", "denominator", "magnitude", "call")
 
 
 def common_ring(rings: Sequence[Ring]) -> tuple[Ring, list[Transfer]]:
@@ -18,10 +24,10 @@ def common_ring(rings: Sequence[Ring]) -> tuple[Ring, list[Transfer]]:
     divisors: dict = {}
     dependent: dict = {}
     plain: dict = {}
-    named = [_by_name(ring, rings[0]) for ring in rings]
+    named = _by_name(rings)
     for keys in named:
         for key in reversed(keys):
-            if key[0] in ("root", "magnitude", "call"):
+            if key[0] in DEPENDENT:
                 dependent.setdefault(key)
         for key in keys:
             if key[0] == "sine":
@@ -37,25 +43,30 @@ def common_ring(rings: Sequence[Ring]) -> tuple[Ring, list[Transfer]]:
             *plain,
         ]
     )
+    for angle in angles:
+        union.define_angle(*angle)
     transfers = [Transfer(ring, keys, union, divisors) for ring, keys in zip(rings, named, strict=True)]
     for transfer in transfers:
         transfer.define_dependent()
     return union, transfers
 
 
-def _by_name(ring: Ring, first: Ring) -> list[tuple]:
-    """Keys of a ring, its symbols replaced by those of the same name in the first ring.
+def _by_name(rings: Sequence[Ring]) -> list[list[tuple]]:
+    """Keys of the rings, symbols of one name replaced by one symbol.
 
     ``Symbol("m")`` and ``Symbol("m", positive=True)`` are different objects, but mean one mass.
     """
-    if ring is first:
-        return list(ring.keys)
-    known = {_name(key): key[1] for key in first.keys if key[0] in ("symbol", "function")}
-    renamed = {
-        key[1]: known[_name(key)]
-        for key in ring.keys
-        if key[0] in ("symbol", "function") and known.get(_name(key), key[1]) != key[1]
-    }
+    chosen: dict[tuple[str, str], Any] = {}
+    for key in (key for ring in rings for key in ring.keys if key[0] in ("symbol", "function")):
+        known = chosen.setdefault(_name(key), key[1])
+        if known.is_extended_real is None and key[1].is_extended_real is not None:
+            chosen[_name(key)] = key[1]  # the one of which more is known
+    return [_renamed(ring, chosen) for ring in rings]
+
+
+def _renamed(ring: Ring, chosen: dict[tuple[str, str], Any]) -> list[tuple]:
+    plain = [key for key in ring.keys if key[0] in ("symbol", "function")]
+    renamed = {key[1]: chosen[_name(key)] for key in plain if chosen[_name(key)] != key[1]}
     if not renamed:
         return list(ring.keys)
     return [(key[0], key[1].xreplace(renamed), *key[2:]) for key in ring.keys]
@@ -102,61 +113,42 @@ class Transfer:
     def image(self, index: int) -> Element:
         """The image of one generator."""
         if index not in self._images:
-            key = self._keys[index]
-            if key[0] in ("sine", "cosine"):
-                self._images[index] = self._angle_image(key)
-            else:
+            key, definition = self._keys[index], self._source.definitions.get(index)
+            if definition is None:
                 self._images[index] = self._target.generator(key)
+            elif definition.kind in ("sine", "cosine"):
+                kind, base, divisor = key
+                whole = self._divisors[base]
+                c, s = self._target.multiple_angle(base, whole, whole // divisor)
+                self._images[index] = c if kind == "cosine" else s
+            else:
+                self._images[index] = self._carried(key, definition)
         return self._images[index]
 
-    def _angle_image(self, key: tuple) -> Element:
-        kind, base, divisor = key
-        whole = self._divisors[base]
-        target = self._target
-        at = target.index["sine", base, whole]
-        if at not in target.definitions:
-            own = self._source.definitions[self._keys.index(("sine", base, divisor))].arguments[0]
-            cosine, sine = target.generator(("cosine", base, whole)), target.generator(("sine", base, whole))
-            target.define(at, Definition("sine", (), (cosine,)))
-            angle = self(own) * divisor * target.constant(1) / whole
-            target.definitions[at].arguments = (angle,)
-            target.define(target.index["cosine", base, whole], Definition("cosine", (angle,), (-sine,)))
-        c, s = target.multiple_angle(base, whole, whole // divisor)
-        return c if kind == "cosine" else s
-
     def define_dependent(self) -> None:
-        """Carry over what roots, magnitudes and calls stand for, inner ones first."""
-        for index in reversed(range(len(self._source.keys))):
-            definition = self._source.definitions.get(index)
-            if definition is None:
-                continue
-            if definition.kind in ("sine", "cosine"):
-                self.image(index)
-            else:
-                self._carry(index, definition)
-        for index, definition in self._source.definitions.items():
-            if definition.kind not in ("sine", "cosine"):
-                at = self._index_of(self._images[index])
-                carried = self._target.definitions[at]
-                if not carried.slopes:
-                    carried.slopes = tuple(None if s is None else self(s) for s in definition.slopes)
+        """Carry over what angles, roots, magnitudes and calls stand for, inner ones first."""
+        source, target = self._source, self._target
+        for index in reversed(range(len(source.keys))):
+            self.image(index)
+        for index, definition in source.definitions.items():
+            if definition.kind == "sine":
+                _, base, divisor = self._keys[index]
+                whole = self._divisors[base]
+                if not target.definitions[target.index["sine", base, whole]].arguments:
+                    target.set_angle(base, whole, self(definition.arguments[0]) * Fraction(divisor, whole))
+            elif definition.kind == "call":
+                (at,) = self._images[index].generators()
+                if not target.definitions[at].slopes:
+                    slopes = tuple(None if s is None else self(s) for s in definition.slopes)
+                    target.definitions[at].slopes = slopes
 
-    def _carry(self, index: int, definition: Definition) -> None:
-        target, key = self._target, self._keys[index]
-        arguments = tuple(self(a) for a in definition.arguments)
-        for at, known in target.definitions.items():
-            if known.kind != definition.kind or len(known.arguments) != len(arguments):
-                continue
-            if known.kind == "call" and (not arguments or target.keys[at][1].func is not key[1].func):
-                continue
-            if all(a.equals(b) for a, b in zip(known.arguments, arguments, strict=True)):
-                self._images[index] = Element(target, target.polynomials.gens[at])
-                return
-        at = target.index[key]
-        if at not in target.definitions:
-            contains = frozenset(j for i in definition.contains for j in self.image(i).generators())
-            target.define(at, Definition(definition.kind, arguments, (), contains))
-        self._images[index] = Element(target, target.polynomials.gens[at])
-
-    def _index_of(self, image: Element) -> int:
-        return next(iter(image.generators()))
+    def _carried(self, key: tuple, definition: Definition) -> Element:
+        """A root, magnitude or call in the larger ring: one that is there already, or a new one."""
+        target = self._target
+        arguments, at = tuple(self(a) for a in definition.arguments), target.index[key]
+        if definition.kind == "root":
+            return define_root(target, at, arguments[0])
+        if definition.kind == "magnitude":
+            return define_magnitude(target, at, arguments[0])
+        contains = frozenset(j for i in definition.contains for j in self.image(i).generators())
+        return define_call(target, at, Definition("call", arguments, (), contains))

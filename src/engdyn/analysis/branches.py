@@ -14,10 +14,12 @@ from typing import Any
 import numpy as np
 
 from engdyn.analysis.continuation import trace
+from engdyn.analysis.equilibrium import Equilibrium, equilibria
 from engdyn.analysis.family import Curve, Family
-from engdyn.analysis.equilibrium import equilibria
-from engdyn.analysis.linear import assemble, block_shapes, compiled_blocks, sorted_eigenvalues
-from engdyn.analysis.stability import neutral_eigenvalues, verdict_of
+from engdyn.analysis.linear import linearize, sorted_eigenvalues
+from engdyn.analysis.neutral import neutral_eigenvalues
+from engdyn.analysis.small_motion import assemble, compiled_blocks, unpacked
+from engdyn.analysis.stability import verdict_of
 from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.numbers import input_values, parameter_values
@@ -45,7 +47,8 @@ class Branch:
 
     def __repr__(self) -> str:
         share = "stable" if self.stable.all() else "unstable" if not self.stable.any() else "partly stable"
-        return f"Branch({len(self.parameter)} points, {self.parameter.min():.5g} to {self.parameter.max():.5g}, {share})"
+        ends = f"{self.parameter.min():.5g} to {self.parameter.max():.5g}"
+        return f"Branch({len(self.parameter)} points, {ends}, {share})"
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +57,8 @@ class BranchPoint:
 
     Attributes
     ----------
-    kind : {"fold", "pitchfork", "transcritical"}
+    kind : {"fold", "pitchfork", "transcritical", "multiple"}
+        "multiple" where the equations lose more than one rank.
     parameter : float
         Value of the parameter [SI].
     q : ndarray, shape (n,)
@@ -143,10 +147,14 @@ def continue_equilibria(
     low, high = _checked_range(eom, parameter, range)
     steady = {"inputs": inputs, "rates": rates, "accelerations": accelerations, "free": free}
     family = Family(eom, values, parameter, (low, high), bounds, steady)
-    seeds = []
-    for value in np.linspace(low, high, max(int(starts), 2)):
-        found = equilibria(eom, {**values, parameter: float(value)}, bounds, **steady)
-        seeds += [(float(value), family.unknown_part(e)) for e in found]
+    places = [float(x) for x in np.linspace(low, high, max(int(starts), 2))]
+    found = [equilibria(eom, {**values, parameter: x}, bounds, **steady) for x in places]
+    if all(set(each.neutral) != set(family.problem.neutral) for each in found):
+        raise EngdynError(
+            f"{parameter} changes which motion is neutral ({', '.join(found[0].neutral)}): vary another "
+            "parameter, or search for equilibria at single values of this one"
+        )
+    seeds = [(x, family.unknown_part(e)) for x, each in zip(places, found, strict=True) for e in each]
     curves, singular = trace(family, seeds)
     ends = [np.append(z, at) for _, at, z in singular]
     branches = tuple(_branch(family, curve, ends) for curve in curves)
@@ -184,30 +192,17 @@ def _branch(family: Family, curve: Curve, singular: Sequence[np.ndarray]) -> Bra
     return Branch(parameter, q, stable)
 
 
-def _stable(family: Family, states: Sequence[Any]) -> np.ndarray:
+def _stable(family: Family, states: Sequence[Equilibrium]) -> np.ndarray:
     """Verdict at every point, all eigenvalues in one batch."""
-    from engdyn.analysis.linear import linearize
-
     eom, count = family.eom, len(states)
-    rows = [
-        [
-            *s.q,
-            *s.speeds,
-            *parameter_values(eom, s.values),
-            *input_values(eom, s.inputs, s.values),
-            0.0,
-            *s.accelerations,
-        ]
-        for s in states
-    ]
+    rows = []
+    for s in states:
+        given = [*parameter_values(eom, s.values), *input_values(eom, s.inputs, s.values)]
+        rows.append([*s.q, *s.speeds, *given, 0.0, *s.accelerations])
     flat = compiled_blocks(eom, "numpy")(*np.array(rows, dtype=float).T)
     flat = np.stack([np.broadcast_to(np.asarray(x, dtype=float), (count,)) for x in flat], axis=-1)
-    blocks, start = {}, 0
-    for name, shape in block_shapes(eom).items():
-        size = shape[0] * shape[1]
-        blocks[name] = flat[:, start : start + size].reshape(count, *shape)
-        start += size
-    found = sorted_eigenvalues(np.linalg.eigvals(assemble(blocks)))
-    middle = states[count // 2]
-    neutral = neutral_eigenvalues(linearize(eom, middle))
+    found = sorted_eigenvalues(np.linalg.eigvals(assemble(unpacked(eom, flat))))
+    # A single state could be a branch point, where more eigenvalues are zero than elsewhere.
+    samples = {min(count - 1, place * count // 4) for place in (1, 2, 3)}
+    neutral = min(neutral_eigenvalues(linearize(eom, states[i])) for i in samples)
     return np.array([verdict_of(each, neutral) == "asymptotically stable" for each in found])

@@ -1,7 +1,7 @@
-"""Following curves of equilibria over a parameter: predictor, corrector, edges, and the way on at branch points.
+"""Following curves of equilibria over a parameter: predictor, corrector, edges, ways on at branch points.
 
-Course section 4.3.  Pseudo-arclength continuation after H. B. Keller, in *Applications of Bifurcation Theory*,
-Academic Press (1977).
+Course section 4.3.  Pseudo-arclength continuation after H. B. Keller, in *Applications of Bifurcation
+Theory*, Academic Press (1977).
 """
 
 from __future__ import annotations

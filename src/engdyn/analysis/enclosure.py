@@ -69,9 +69,8 @@ class Certificate:
     @property
     def points(self) -> np.ndarray:
         """Midpoints of the root enclosures, shape (number of roots, n)."""
-        return np.array([[_middle(pair) for pair in root] for root in self.roots]).reshape(
-            -1, len(self.region)
-        )
+        middles = [[_middle(pair) for pair in root] for root in self.roots]
+        return np.array(middles).reshape(-1, len(self.region))
 
     @cached_property
     def certified(self) -> bool:
@@ -133,9 +132,8 @@ def enclose_roots(
     rest = search.undecided
     for box in accepted:  # so that no undecided box hides what an accepted one covers
         rest = [piece for other in rest for piece in _subtract(other, box)]
-    undecided = _merge(
-        _as_array(rest, len(region)), _as_array(accepted, len(region)), np.array(search.extent)
-    )
+    n = len(region)
+    undecided = _merge(_as_array(rest, n), _as_array(accepted, n), np.array(search.extent))
     return Certificate(
         region=region,
         searched=searched,
@@ -224,8 +222,11 @@ class _Search:
                 return
             if step.regular and self._accept_inflated(box, inner, step.image):
                 return
-            before, inner = inner, self._with_margin(step.image, inner)
-            if math.prod(_width(a) / _width(b) for a, b in zip(inner, before, strict=True)) > 0.3:
+            image = self._with_margin(step.image, inner)
+            shrunk = math.prod(_width(new) / _width(old) for new, old in zip(image, inner, strict=True))
+            if shrunk < 0.8:  # less is not worth the boxes that are left around it
+                inner = image
+            if shrunk > 0.3:
                 break
         self.rejected.extend(_subtract(box, inner))
         self._cut(inner, step.slopes)
@@ -422,8 +423,9 @@ def _snap(root: tuple[float, float], bounds: tuple[float, float]) -> tuple[float
 
     A root beyond an edge, but within the margin that was searched, counts as on the edge.
     """
-    held = [mark for mark in (0.0, *bounds) if root[0] <= mark <= root[1]]
-    center = held[0] if held else min(max(_middle(root), bounds[0]), bounds[1])
+    low, high = bounds
+    held = [mark for mark in (0.0, low, high) if low <= mark <= high and root[0] <= mark <= root[1]]
+    center = held[0] if held else min(max(_middle(root), low), high)
     if center == _middle(root):
         return root
     unit = 2.0 * math.ulp(max(abs(center), abs(root[0]), abs(root[1])))  # so that both bounds are exact
@@ -474,19 +476,24 @@ def _as_array(boxes: Sequence[Box], n: int) -> np.ndarray:
 
 
 def _is_covered(box: Box, boxes: Sequence[Box]) -> bool:
-    """Return whether boxes leave no gap in a box, by cutting it along their faces."""
+    """Return whether boxes leave no gap in a box: it is cut along their faces, then they are subtracted."""
     waiting = [(np.array(box), _as_array(boxes, len(box)))]
     while waiting:
         piece, others = waiting.pop()
         low, high = piece.T
         others = others[((others[:, :, 0] < high) & (others[:, :, 1] > low)).all(axis=1)]
-        if not len(others):
-            return False
-        if ((others[:, :, 0] <= low) & (others[:, :, 1] >= high)).all(axis=1).any():
+        if len(others) <= 12:
+            rest = [tuple(map(tuple, piece.tolist()))]
+            for other in others.tolist():
+                rest = [part for remaining in rest for part in _subtract(remaining, other)]
+            if rest:
+                return False
             continue
         inside = (others > low[:, None]) & (others < high[:, None])
         k = int(inside.sum(axis=(0, 2)).argmax())
         faces = np.sort(others[:, k][inside[:, k]])
+        if not len(faces):  # all of them contain the piece
+            continue
         for bounds in ((low[k], faces[len(faces) // 2]), (faces[len(faces) // 2], high[k])):
             part = piece.copy()
             part[k] = bounds
@@ -495,7 +502,11 @@ def _is_covered(box: Box, boxes: Sequence[Box]) -> bool:
 
 
 def _merge(boxes: np.ndarray, avoided: np.ndarray, extent: np.ndarray) -> list[Box]:
-    """Return few boxes that cover the given ones and overlap none of those avoided."""
+    """Return few boxes that cover the given ones and overlap none of those avoided.
+
+    A group of boxes becomes one when it is tiny or fills half of its hull; else it is split at gaps, then up
+    to four times in the middle (a curve of roots keeps its shape roughly).
+    """
     merged: list[Box] = []
     waiting = [(boxes, 4)] if len(boxes) else []
     while waiting:

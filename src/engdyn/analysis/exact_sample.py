@@ -1,88 +1,162 @@
-"""Exact rational values of ring elements near an equilibrium, parameters drawn at random."""
+"""Exact values of ring elements modulo a prime, at an equilibrium, parameters drawn at random.
+
+What vanishes identically vanishes in every sample; what does not, vanishes in a random sample with a
+probability of about its degree over the prime (J. T. Schwartz, J. ACM 27, 1980; R. Zippel, 1979).
+"""
 
 from __future__ import annotations
 
 import math
 from fractions import Fraction
+from functools import cache
 from random import Random
 from typing import TYPE_CHECKING, Any
 
+import sympy as sm
+
 from engdyn.algebra.ring import Element
+from engdyn.analysis.small_motion import motion_keys
+from engdyn.errors import EngdynError
 from engdyn.modeling.numbers import input_values, parameter_values
 
 if TYPE_CHECKING:
     from engdyn.analysis.linear import LinearSystem
 
-__all__ = ["ExactSample"]
+__all__ = ["ExactSample", "NoRootError", "primes"]
+
+AT_ZERO = {sm.atan: 0, sm.asin: 0, sm.sinh: 0, sm.tanh: 0, sm.exp: 1, sm.cosh: 1}
+"""Values of functions at zero, where they are rational; elsewhere a call is independent of the rest."""
+
+
+@cache
+def primes(count: int) -> tuple[int, ...]:
+    """Large primes of the form 4 k + 3, for which square roots are powers."""
+    found, candidate = [2**61 - 1], 2**61 - 1
+    while len(found) < count:
+        candidate = sm.prevprime(candidate)
+        if candidate % 4 == 3:
+            found.append(candidate)
+    return tuple(found)
+
+
+class NoRootError(EngdynError):
+    """A radicand is no square modulo the prime: draw another sample, modulo another prime."""
+
+    def __init__(self) -> None:
+        super().__init__("the sample has no square root: draw another one")
 
 
 class ExactSample:
-    """Values of all generators: rational, consistent for sines and cosines.
+    """Values of all generators modulo a prime, consistent for sines, cosines and roots.
 
     Parameters
     ----------
     linear : LinearSystem
-    source : random.Random
-        Where parameters that are not zero get their values from.
+        Coordinates, speeds and accelerations are taken as they are.
+    seed : int
+        Parameters and inputs that are not zero are random.
+    prime : int
+        Of the form 4 k + 3.
+    zeros_too : bool
+        Parameters and inputs that are zero are random as well.
+    moved : bool
+        The coordinates are random, too.
     """
 
-    def __init__(self, linear: LinearSystem, source: Random):
-        self._ring, self._source = linear.eom.ring, source
-        self._plain = self._given(linear)
-        self._values: dict[int, Fraction] = {}
+    def __init__(
+        self, linear: LinearSystem, seed: int, prime: int, zeros_too: bool = False, moved: bool = False
+    ):
+        self._ring, self._source, self._prime, self._moved = linear.eom.ring, Random(seed), prime, moved
+        self._plain = self._given(linear, zeros_too)
+        self._values: dict[int, int] = {}
 
-    def _given(self, linear: LinearSystem) -> dict[tuple[Any, ...], Fraction]:
-        """Coordinates, speeds, accelerations and inputs as they are; parameters random unless zero."""
-        from engdyn.analysis.linear import motion_keys
-
+    def _given(self, linear: LinearSystem, zeros_too: bool) -> dict[tuple[Any, ...], Fraction]:
         eom, at = linear.eom, linear.at
+        q_keys, u_keys, a_keys = motion_keys(eom)
         given: dict[tuple[Any, ...], Fraction] = {}
-        state = [*at.q, *at.speeds, *at.accelerations]
-        for key, x in zip([k for keys in motion_keys(eom) for k in keys], state, strict=True):
+        for key, x in zip([*u_keys, *a_keys, *q_keys], [*at.speeds, *at.accelerations, *at.q], strict=True):
             given[key] = Fraction(repr(float(x))) if abs(x) > 1e-12 else Fraction(0)
+        if self._moved:
+            given |= {key: self._random(1000) for key in q_keys}
         for p, x in zip(eom.parameters, parameter_values(eom, at.values), strict=True):
-            given["symbol", p] = self._random() if x else Fraction(0)
+            given["symbol", p] = self._random() if x or zeros_too else Fraction(0)
         order = [(w, k) for w in eom.inputs for k in (0, 1, 2)]
         for (w, k), x in zip(order, input_values(eom, at.inputs, at.values), strict=True):
-            given["function", w, k] = self._random() if x else Fraction(0)
+            given["function", w, k] = self._random() if x or zeros_too else Fraction(0)
         return given
 
-    def _random(self) -> Fraction:
-        return Fraction(self._source.randint(1, 10**6), self._source.randint(1, 10**6))
+    def _residue(self, value: Fraction) -> int:
+        return value.numerator * pow(value.denominator, -1, self._prime) % self._prime
 
-    def value(self, element: Element) -> Fraction:
-        """Exact value of an element."""
+    def _random(self, largest: int = 10**6) -> Fraction:
+        return Fraction(self._source.randint(1, largest), self._source.randint(1, 10**6))
+
+    def value(self, element: Element) -> int:
+        """Value of an element modulo the prime."""
         above = self._polynomial(element.numerator)
-        return above if element.denominator is None else above / self._polynomial(element.denominator)
+        if element.denominator is None:
+            return above
+        below = self._polynomial(element.denominator)
+        if below == 0:
+            raise EngdynError(
+                "a denominator vanishes there: the linearized equations do not exist at this state"
+            )
+        return above * pow(below, -1, self._prime) % self._prime
 
-    def _polynomial(self, p: Any) -> Fraction:
-        total = Fraction(0)
+    def _polynomial(self, p: Any) -> int:
+        total = 0
         for exponents, coefficient in self._ring.polynomials.terms(p):
+            term = self._residue(coefficient)
             for i, e in enumerate(exponents):
                 if e:
-                    coefficient *= self._generator(i) ** e
-            total += coefficient
-        return total
+                    term = term * pow(self._generator(i), e, self._prime) % self._prime
+            total += term
+        return total % self._prime
 
-    def _generator(self, index: int) -> Fraction:
+    def _generator(self, index: int) -> int:
         if index not in self._values:
+            definition = self._ring.definitions.get(index)
             key = self._ring.keys[index]
-            if key[0] in ("sine", "cosine"):
+            if definition is None:
+                self._values[index] = self._residue(self._plain.get(key, Fraction(0)))
+            elif definition.kind in ("sine", "cosine"):
                 self._on_circle(key)
-            else:  # roots and calls: any number will do, they are independent of the rest
-                self._values[index] = self._plain.get(
-                    key, self._random() if index in self._ring.definitions else Fraction(0)
-                )
+            else:
+                self._values[index] = self._dependent(key, definition)
         return self._values[index]
+
+    def _dependent(self, key: tuple[Any, ...], definition: Any) -> int:
+        """A root, a magnitude or a call."""
+        inside = [self.value(a) for a in definition.arguments]
+        if definition.kind == "root":
+            root = pow(inside[0], (self._prime + 1) // 4, self._prime)
+            if root * root % self._prime != inside[0]:
+                raise NoRootError
+            return root
+        if definition.kind == "magnitude":
+            return inside[0]
+        if inside == [0] and key[1].func in AT_ZERO:
+            return AT_ZERO[key[1].func]
+        return self._source.randint(1, self._prime - 1)
 
     def _on_circle(self, key: tuple[Any, ...]) -> None:
         """Sine and cosine from the half-angle tangent: exactly on the unit circle."""
         ring = self._ring
         sine, cosine = ring.index["sine", *key[1:]], ring.index["cosine", *key[1:]]
-        angle = float(self.value(ring.definitions[sine].arguments[0]))
-        turned = math.remainder(angle, 2 * math.pi)
+        turned = math.remainder(self._angle(ring.definitions[sine].arguments[0]), 2 * math.pi)
         if abs(abs(turned) - math.pi) < 1e-9:
-            self._values[sine], self._values[cosine] = Fraction(0), Fraction(-1)
+            self._values[sine], self._values[cosine] = 0, self._prime - 1
             return
         half = Fraction(math.tan(turned / 2)).limit_denominator(10**6) if abs(turned) > 1e-12 else Fraction(0)
-        self._values[sine], self._values[cosine] = 2 * half / (1 + half**2), (1 - half**2) / (1 + half**2)
+        self._values[sine] = self._residue(2 * half / (1 + half**2))
+        self._values[cosine] = self._residue((1 - half**2) / (1 + half**2))
+
+    def _angle(self, element: Element) -> float:
+        """An angle in radians: a linear combination of coordinates and the like."""
+        total = 0.0
+        for exponents, coefficient in self._ring.polynomials.terms(element.numerator):
+            factors = (
+                float(self._plain.get(self._ring.keys[i], 0)) ** e for i, e in enumerate(exponents) if e
+            )
+            total += float(coefficient) * math.prod(factors)
+        return total

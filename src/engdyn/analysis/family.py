@@ -1,4 +1,4 @@
-"""Equilibrium conditions as a family over one parameter, compiled with their derivatives.  Course section 4.3."""
+"""Equilibrium conditions as a family over one parameter, with their derivatives.  Course section 4.3."""
 
 from __future__ import annotations
 
@@ -97,6 +97,9 @@ class Family:
             [converter.convert(e) for e in expressions], [("symbol", symbol)], "math"
         )
         self._n, self._varied = n, len(varied)
+        self._tied = compile_elements(
+            [e for _, e in problem.eliminated], [u.key for u in self.unknowns], "math"
+        )
 
     def evaluate(self, z: np.ndarray, at: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """F, ∂F/∂z and dF/dλ at one point."""
@@ -128,7 +131,7 @@ class Family:
 
     def unknown_part(self, equilibrium: Equilibrium) -> np.ndarray:
         """The unknowns of a found equilibrium, in the order of this family."""
-        named = {n: x for n, x in zip(equilibrium.names, equilibrium.q, strict=True)}
+        named = dict(zip(equilibrium.names, equilibrium.q, strict=True))
         owners = [u.expr.func.__name__ if u.is_Derivative else u.func.__name__ for u in self.eom.speeds]
         named |= {f"{n}_d": x for n, x in zip(owners, equilibrium.speeds, strict=True)}
         named |= {f"{n}_dd": x for n, x in zip(owners, equilibrium.accelerations, strict=True)}
@@ -143,6 +146,8 @@ class Family:
         """The equilibrium of a point on a branch."""
         named = {u.name: float(x) for u, x in zip(self.unknowns, z, strict=True)}
         problem = self.problem
+        tied = self._tied(*named.values())
+        named |= {u.name: float(x) for (u, _), x in zip(problem.eliminated, tied, strict=True)}
         owners = [u.expr.func.__name__ if u.is_Derivative else u.func.__name__ for u in self.eom.speeds]
         q = np.array([named.get(n, 0.0) for n in self.names])
         speeds = np.array([named.get(f"{n}_d", float(problem.rates.get(n, 0))) for n in owners])

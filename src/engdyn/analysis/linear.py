@@ -15,17 +15,22 @@ import numpy as np
 import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
-from engdyn.algebra.codegen import compile_elements
 from engdyn.algebra.readable import to_sympy, tree
-from engdyn.algebra.ring import Element
 from engdyn.analysis.equilibrium import Equilibrium
+from engdyn.analysis.small_motion import (
+    BLOCKS,
+    assemble,
+    block_shapes,
+    compiled_blocks,
+    motion_keys,
+    small_motion,
+    unpacked,
+)
 from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.numbers import input_values, mass_and_force, parameter_values
 
 __all__ = ["LinearSystem", "eigenvalues", "linearize", "sorted_eigenvalues"]
-
-Key = tuple[Any, ...]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -155,69 +160,6 @@ def _as_equilibrium(
     return Equilibrium(q, u, udot, dict(given), dict(values), residual, names)
 
 
-def motion_keys(eom: EquationsOfMotion) -> tuple[list[Key], list[Key], list[Key]]:
-    """Keys of coordinates, speeds and accelerations."""
-    speeds = [("function", u.expr, 1) if u.is_Derivative else ("function", u, 0) for u in eom.speeds]
-    return (
-        [("function", q, 0) for q in eom.coordinates],
-        speeds,
-        [(kind, function, order + 1) for kind, function, order in speeds],
-    )
-
-
-def small_motion(eom: EquationsOfMotion) -> dict[str, list[list[Element]]]:
-    """Jacobians of the residual and of the kinematics, exact, as rows of ring elements."""
-    cache = eom.__dict__.setdefault("_small_motion", {})
-    if cache:
-        return cache
-    ring = eom.ring
-    q_keys, u_keys, a_keys = motion_keys(eom)
-    residuals = []
-    for line, force in zip(eom.mass, eom.force, strict=True):
-        total = -force
-        for entry, key in zip(line, a_keys, strict=True):
-            if not entry.is_zero():
-                total = total + entry * ring.generator(key)
-        residuals.append(total)
-    inputs = [[("function", w, k) for w in eom.inputs] for k in (0, 1, 2)]
-    by = {"K": q_keys, "C": u_keys, "B0": inputs[0], "B1": inputs[1], "B2": inputs[2]}
-    for name, keys in by.items():
-        partials = [ring.partial(key) for key in keys]
-        cache[name] = [[partial(row) for partial in partials] for row in residuals]
-    cache["M"] = [list(line) for line in eom.mass]
-    cache["Gq"] = [[partial(rate) for partial in map(ring.partial, q_keys)] for rate in eom.rates]
-    cache["G"] = [[partial(rate) for partial in map(ring.partial, u_keys)] for rate in eom.rates]
-    return cache
-
-
-BLOCKS = ("M", "C", "K", "B0", "B1", "B2", "Gq", "G")
-
-
-def compiled_blocks(eom: EquationsOfMotion, target: str) -> Any:
-    """A function of (q, u, parameters, inputs, t, u̇) that returns all entries of all blocks, flat."""
-    cache = eom.__dict__.setdefault("_compiled_blocks", {})
-    if target not in cache:
-        blocks = small_motion(eom)
-        flat = [entry for name in BLOCKS for row in blocks[name] for entry in row]
-        cache[target] = compile_elements(flat, [*eom.arguments, *motion_keys(eom)[2]], target)
-    return cache[target]
-
-
-def block_shapes(eom: EquationsOfMotion) -> dict[str, tuple[int, int]]:
-    """Shape of every block, in the order in which compiled code returns them."""
-    n, m, w = len(eom.coordinates), len(eom.speeds), len(eom.inputs)
-    return {
-        "M": (m, m),
-        "C": (m, m),
-        "K": (m, n),
-        "B0": (m, w),
-        "B1": (m, w),
-        "B2": (m, w),
-        "Gq": (n, n),
-        "G": (n, m),
-    }
-
-
 def _numeric(
     eom: EquationsOfMotion, state: list[Any], values: Mapping[str, float], given: Mapping[str, Any]
 ) -> tuple:
@@ -229,10 +171,7 @@ def _numeric(
         raise EngdynError(f"at holds {state}: give numbers, or ask for symbolic=True") from error
     rest = [*parameter_values(eom, values), *input_values(eom, given, values), 0.0]
     flat = np.array(compiled_blocks(eom, "math")(*moved, *rest, *udot), dtype=float)
-    blocks, start = {}, 0
-    for name, shape in block_shapes(eom).items():
-        blocks[name] = flat[start : start + shape[0] * shape[1]].reshape(shape)
-        start += shape[0] * shape[1]
+    blocks = unpacked(eom, flat)
     if not np.all(np.isfinite(flat)):
         raise EngdynError(
             "the linearized equations are not finite there: a root or a quotient has no derivative"
@@ -240,16 +179,6 @@ def _numeric(
     state_matrix = assemble(blocks)
     force = (-blocks["B0"], -blocks["B1"], -blocks["B2"])
     return blocks["M"], blocks["C"], blocks["K"], tuple(b + 0.0 for b in force), state_matrix
-
-
-def assemble(blocks: Mapping[str, np.ndarray]) -> np.ndarray:
-    """State matrices from blocks, which may be stacked: shape (..., n + m, n + m)."""
-    try:
-        lower = -np.linalg.solve(blocks["M"], np.concatenate([blocks["K"], blocks["C"]], axis=-1))
-    except np.linalg.LinAlgError as error:
-        raise EngdynError("singular mass matrix: the state matrix does not exist there") from error
-    upper = np.concatenate([blocks["Gq"], blocks["G"]], axis=-1)
-    return np.concatenate([upper, lower], axis=-2)
 
 
 def _symbolic(eom: EquationsOfMotion, state: list[Any], given: Mapping[str, Any]) -> tuple:
@@ -309,8 +238,6 @@ def sorted_eigenvalues(found: np.ndarray) -> np.ndarray:
     """Eigenvalues along the last axis by falling real part, +imaginary before −imaginary."""
     found = np.asarray(found, dtype=complex)
     scale = np.max(np.abs(found), axis=-1, keepdims=True)
-    rounded = np.round(
-        found.real / np.where(scale == 0, 1, scale), 10
-    )  # pairs keep together despite rounding
+    rounded = np.round(found.real / np.where(scale == 0, 1, scale), 10)  # so that pairs keep together
     order = np.lexsort((-found.imag, -np.abs(found.imag), -rounded), axis=-1)
     return np.take_along_axis(found, order, axis=-1)

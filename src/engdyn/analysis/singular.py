@@ -1,8 +1,8 @@
 """Folds and branch points of F(y) = 0, n equations in the n + 1 unknowns y = (z, λ).
 
-Course section 4.3.  W. Govaerts, *Numerical Methods for Bifurcations of Dynamical Equilibria*, SIAM (2000),
-chapters 3 and 4; H. B. Keller, in *Applications of Bifurcation Theory*, Academic Press (1977) (the directions in
-which branches leave a branch point).
+Course section 4.3.  W. Govaerts, *Numerical Methods for Bifurcations of Dynamical Equilibria*, SIAM
+(2000), chapters 3 and 4; H. B. Keller, in *Applications of Bifurcation Theory*, Academic Press (1977)
+(the directions in which branches leave a branch point).
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ SINGULAR = 1e-6
 def branch_point(system: System, guess: np.ndarray) -> np.ndarray | None:
     """The simple branch point near a guess, to machine precision.
 
-    Newton's method on F(y) + μ w = 0, wᵀ F_y(y) = 0, wᵀ w = 1 for y, the left null vector w and the unfolding μ,
-    which is zero at a branch point.
+    Newton's method on F(y) + μ s = 0, wᵀ F_y(y) = 0, wᵀ w = 1 for y, the left null vector w and the
+    unfolding μ, which is zero at a branch point (s is the first guess of w).
 
     Parameters
     ----------

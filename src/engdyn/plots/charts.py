@@ -84,5 +84,9 @@ def _arrow(ax: Axes, start: tuple[float, float], end: tuple[float, float], label
     look = {"arrowstyle": "-|>", "color": COLORS["body"], "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0}
     ax.annotate("", xy=head, xytext=tail, arrowprops=look, zorder=2)
     if label:
-        place = (0.5 * (tail[0] + head[0]), tail[1] - 0.16) if beside else (tail[0] + 0.08, 0.5 * (tail[1] + head[1]))
+        place = (
+            (0.5 * (tail[0] + head[0]), tail[1] - 0.16)
+            if beside
+            else (tail[0] + 0.08, 0.5 * (tail[1] + head[1]))
+        )
         ax.text(*place, label, ha="center", va="center", fontsize=11, color=COLORS["coordinate"], zorder=4)

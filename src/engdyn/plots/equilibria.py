@@ -15,7 +15,7 @@ from engdyn.plots.axes import MARKS, coordinate_axis, is_stable, legend_entry, s
 from engdyn.plots.drawing import Layer, draw_layers, drawing_axes, structure
 from engdyn.plots.look import new_axes, style
 from engdyn.plots.pen import direction
-from engdyn.plots.words import number, pose, quantity, symbol, with_unit
+from engdyn.plots.words import number, plain_verdict, pose, quantity, symbol, with_unit
 from engdyn.shapes import Label, Shape
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ def equilibrium_poses(
     ax = drawing_axes(layers, margin=MARGIN) if ax is None else ax
     draw_layers(ax, layers, margin=MARGIN, size=SIZE)
     parts = [
-        f"{i}: {pose(system.coordinates, state.q)} ({verdict})"
+        f"{i}: {pose(system.coordinates, state.q)} ({plain_verdict(verdict)})"
         for i, (state, verdict) in enumerate(zip(equilibria, judged, strict=True), 1)
     ]
     count = f"{len(parts)} equilibri{'um' if len(parts) == 1 else 'a'}"

@@ -58,7 +58,7 @@ def place(
         text = ax.text(0.0, 0.0, words.text, color=COLORS[words.role], ha="center", va="center", zorder=9)
         text.set(clip_on=False, fontsize=size)
         extent = text.get_window_extent()
-        center = page.settle(words, 0.5 * scale * np.array([extent.width, extent.height]) + 2.0)
+        center = page.settle(words, 0.5 * scale * np.array([extent.width, extent.height]) + 3.0)
         text.set_position(tuple(center * unit))
         written.append(text)
     return written
@@ -101,7 +101,7 @@ class _Page:
         gaps = abs(self.dots[near][None] - centers[:, None])
         # Inside a body a label may come close to the outline: there is no doubt what it belongs to.
         on_it = np.all(centers == words.anchors[whose] / self.unit, axis=1)
-        tight = half - 3.0 * on_it[:, None]
+        tight = half - 4.0 * on_it[:, None]
         cost = cost + 0.7 * np.all(gaps < tight[:, None], axis=2).sum(axis=1)
         outside = np.maximum(self.paper[0] - low, 0.0) + np.maximum(high - self.paper[1], 0.0)
         meets = (low[:, None] < self.boxes[None, :, 1]) & (high[:, None] > self.boxes[None, :, 0])

@@ -9,7 +9,7 @@ from typing import Any
 import sympy as sm
 from sympy.physics.vector.printing import vlatex
 
-__all__ = ["number", "pose", "quantity", "symbol", "with_unit"]
+__all__ = ["number", "plain_verdict", "pose", "quantity", "symbol", "with_unit"]
 
 
 def number(value: float) -> str:
@@ -35,6 +35,11 @@ def quantity(name: str, value: float, unit: str) -> str:
 def pose(coordinates: Sequence[Any], q: Sequence[float]) -> str:
     """Write a pose, for example ``x = 0 m, theta = 0.5 rad (28.6°)``."""
     return ", ".join(quantity(c.name, float(value), c.unit) for c, value in zip(coordinates, q, strict=True))
+
+
+def plain_verdict(verdict: str) -> str:
+    """Write ``unstable (flutter)`` without parentheses, because verdicts are told in parentheses."""
+    return verdict.replace(" (", ", ").replace(")", "")
 
 
 def symbol(item: Any) -> str:

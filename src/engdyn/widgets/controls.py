@@ -12,8 +12,6 @@ from engdyn.errors import EngdynError
 
 __all__ = ["Choice", "Control", "Slider"]
 
-_WIDE = {"description_width": "11em"}
-
 
 @dataclass(frozen=True)
 class Slider:
@@ -31,6 +29,9 @@ class Slider:
         SI unit, "-" for none.
     meaning : str
         What is set, in words; shown as a tooltip and read by screen readers.
+    step : float, optional
+        What one press of an arrow key changes; by default the range has about a hundred steps. A slider shows
+        no values between its steps, so ``value`` should be one of them.
     """
 
     name: str
@@ -39,6 +40,7 @@ class Slider:
     value: float
     unit: str = "-"
     meaning: str = ""
+    step: float | None = None
 
     def check(self, value: Any) -> float:
         """Return ``value`` as a float within the limits.
@@ -64,17 +66,16 @@ class Slider:
 
     def widget(self, value: float) -> ipywidgets.FloatSlider:
         """Return a slider, operable by the arrow keys, that stands at ``value``."""
-        step = 10.0 ** math.floor(math.log10((self.high - self.low) / 100.0))
         return ipywidgets.FloatSlider(
             value=value,
             min=self.low,
             max=self.high,
-            step=step,
+            step=self.step or (self.high - self.low) / 100.0,
             description=f"{self.name} [{self.unit if self.unit != '-' else '1'}]",
             tooltip=f"{self.meaning or self.name}, {self._range}",
             readout_format=".4g",
             tabbable=True,
-            style=_WIDE,
+            style={"description_width": "11em"},
             layout=ipywidgets.Layout(width="26em"),
         )
 
@@ -121,8 +122,8 @@ class Choice:
             description=self.name,
             tooltip=self.meaning or self.name,
             tabbable=True,
-            style=_WIDE,
-            layout=ipywidgets.Layout(width="26em"),
+            style={"description_width": "6em"},
+            layout=ipywidgets.Layout(width="30em"),
         )
 
 

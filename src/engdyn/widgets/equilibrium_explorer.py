@@ -16,7 +16,7 @@ from matplotlib.patches import Rectangle
 from engdyn.errors import EngdynError
 from engdyn.plots.axes import MARKS, is_stable
 from engdyn.plots.equilibria import branches, equilibrium_poses, verdicts
-from engdyn.plots.words import number
+from engdyn.plots.words import number, plain_verdict, quantity
 from engdyn.system import System
 from engdyn.systems.library import catalogue, load
 from engdyn.widgets.controls import Choice, Control, Slider
@@ -60,10 +60,11 @@ def slider(parameter: Parameter) -> Slider:
     """
     default = float(parameter.default)
     if default == 0.0:
-        low, high = (-10.0 if parameter.admissible == "any" else 0.0), 10.0
+        low, high, step = (-10.0 if parameter.admissible == "any" else 0.0), 10.0, 0.1
     else:
         low, high = sorted((0.2 * default if parameter.admissible == "positive" else 0.0, 2.5 * default))
-    return Slider(parameter.name, low, high, default, parameter.unit, parameter.meaning)
+        step = abs(default) / 50.0
+    return Slider(parameter.name, low, high, default, parameter.unit, parameter.meaning, step)
 
 
 def find(system: System, values: Mapping[str, float]) -> tuple[Any, list[str]]:
@@ -194,6 +195,10 @@ class EquilibriumExplorer(Explorer):
             marks += ax.plot([here], [found.q[index]], marker="o", markeredgewidth=2.0, clip_on=False, **look)
         return marks
 
+    def caption(self, state: Mapping[str, Any]) -> str:
+        system, over = self.system(state["system"]), self._controls[state["over"]]
+        return f"{system.title}, {quantity(over.name, state[over.name], over.unit)}"
+
     def words(self, state: Mapping[str, Any], result: Found) -> str:
         system = self.system(state["system"])
         shown = [i for i, c in enumerate(system.coordinates) if c.kind != "ignorable"]
@@ -203,11 +208,11 @@ class EquilibriumExplorer(Explorer):
                 f"{system.coordinates[i].name} = {_value(found.q[i], system.coordinates[i].unit)}"
                 for i in shown
             )
-            told.append(f"{pose} ({verdict})")
+            told.append(f"{pose} ({plain_verdict(verdict)})")
         count = len(result.states)
         text = f"{count} equilibri{'um' if count == 1 else 'a'}" + (": " + "; ".join(told) if told else "")
         text += f"; and {count - MANY} more" if count > MANY else ""
-        return f"{system.title}, {state['over']} = {number(state[state['over']])}: {text}.{_doubt(result)}"
+        return f"{text}.{_doubt(result)}"
 
 
 def _veil(ax: Axes) -> list[Artist]:

@@ -73,6 +73,10 @@ class Explorer(ABC):
     def draw_moving(self, figure: Figure, state: Mapping[str, Any], result: Any) -> Iterable[Artist]:
         """Draw the rest and return its artists, lowest first."""
 
+    def caption(self, state: Mapping[str, Any]) -> str:
+        """Say what is being looked at, as a heading for the words; by default nothing."""
+        return ""
+
     @abstractmethod
     def words(self, state: Mapping[str, Any], result: Any) -> str:
         """Tell the result in a sentence or two."""
@@ -168,10 +172,12 @@ class Explorer(ABC):
                 told = f"Nothing to draw: {error}"
                 self._draw_message(told)
         self._png = _encoded(self.figure)
-        self._text = f"{self.title}. {told}"
-        self._picture.value, self._picture.tooltip = self._png, self._text
+        caption = self.caption(self._state)
+        self._text = f"{self.title}. {caption}: {told}" if caption else f"{self.title}. {told}"
+        self._picture.value = self._png
         news = ", ".join(self._in_words(name) for name in changed[:3]) + (" …" if len(changed) > 3 else "")
-        self._line.value = f"<p role='status'>{html.escape(f'{news}: {told}' if news else told)}</p>"
+        before = news or caption
+        self._line.value = f"<p role='status'>{html.escape(f'{before}: {told}' if before else told)}</p>"
 
     def _draw(self, result: Any) -> None:
         canvas, key = self.figure.canvas, self.static_key(self._state, result)
@@ -207,6 +213,7 @@ class Explorer(ABC):
 
     def _build_frame(self) -> None:
         width = f"{round(self.size[0] * self.dpi)}px"
+        # No tooltip on the picture: with one, ipywidgets 8.1.9 fails to show it. Its words stand below.
         self._picture = ipywidgets.Image(
             format="png", layout=ipywidgets.Layout(width=width, max_width="100%")
         )
