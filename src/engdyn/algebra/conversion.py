@@ -107,9 +107,12 @@ class Converter:
             return self._angle(expr.args[0])[1]
         if type(expr) in RECIPROCAL:
             c, s = self._angle(expr.args[0])
-            return {sm.tan: lambda: s / c, sm.cot: lambda: c / s, sm.sec: lambda: 1 / c, sm.csc: lambda: 1 / s}[
-                type(expr)
-            ]()
+            return {
+                sm.tan: lambda: s / c,
+                sm.cot: lambda: c / s,
+                sm.sec: lambda: 1 / c,
+                sm.csc: lambda: 1 / s,
+            }[type(expr)]()
         if isinstance(expr, sm.Derivative):
             return self.convert(expr.doit())
         if half_power(expr):

@@ -4,10 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from random import Random
 
-from engdyn.algebra.ring import Element
+from engdyn.algebra.ring import Element, Ring
 
-__all__ = ["Elimination", "determinant", "eliminate", "solve"]
+__all__ = [
+    "Elimination",
+    "determinant",
+    "eliminate",
+    "independent_columns",
+    "is_singular",
+    "primitive",
+    "solve",
+]
 
 Row = list[Element]
 
@@ -129,3 +139,67 @@ def determinant(matrix: Sequence[Row]) -> Element:
             part = entry * determinant(minor)
             total = total + part if (at + j) % 2 == 0 else total - part
     return total
+
+
+def is_singular(matrix: Sequence[Row]) -> bool:
+    """Whether the determinant of a square matrix is zero identically."""
+    return not _full_rank_somewhere(matrix) and determinant(matrix).is_zero()
+
+
+def independent_columns(rows: Sequence[Row], columns: int) -> bool:
+    """Whether the first `columns` columns are independent of each other."""
+    if columns == 0:
+        return True
+    rows = [row[:columns] for row in rows]
+    return _full_rank_somewhere(rows) or not eliminate(rows, columns).missing
+
+
+def _full_rank_somewhere(matrix: Sequence[Row]) -> bool:
+    """Whether the columns are independent at one rational point: then they are in the ring."""
+    ring = matrix[0][0].ring
+    used = {i for row in matrix for entry in row for i in entry.generators()}
+    if any(i in ring.definitions and ring.definitions[i].kind not in ("sine", "cosine") for i in used):
+        return False  # a root has no rational value
+    point = _rational_point(ring)
+    rows = [[_value(entry, point) for entry in row] for row in matrix]
+    if any(entry is None for row in rows for entry in row):
+        return False
+    for column in range(len(rows[0])):
+        pivot = next((row for row in rows if row[column]), None)
+        if pivot is None:
+            return False
+        rows.remove(pivot)
+        ratios = [row[column] / pivot[column] for row in rows]
+        rows = [
+            [a - f * b for a, b in zip(row, pivot, strict=True)] for row, f in zip(rows, ratios, strict=True)
+        ]
+    return True
+
+
+def _rational_point(ring: Ring) -> list[Fraction]:
+    """Values of all generators that respect sin² + cos² = 1: rational points of the circle."""
+    source = Random(1843)
+    point = [Fraction(source.randint(1, 97), source.randint(1, 97)) for _ in ring.keys]
+    for i, key in enumerate(ring.keys):
+        if key[0] == "sine":
+            half = point[i]
+            point[i] = 2 * half / (1 + half**2)
+            point[ring.index["cosine", *key[1:]]] = (1 - half**2) / (1 + half**2)
+    return point
+
+
+def _value(element: Element, point: Sequence[Fraction]) -> Fraction | None:
+    """Value of an element at a rational point, None where its denominator vanishes."""
+    parts = [element.numerator] if element.denominator is None else [element.numerator, element.denominator]
+    values = []
+    for p in parts:
+        total = Fraction(0)
+        for exponents, coefficient in element.ring.polynomials.terms(p):
+            for i, e in enumerate(exponents):
+                if e:
+                    coefficient *= point[i] ** e
+            total += coefficient
+        values.append(total)
+    if len(values) == 1:
+        return values[0]
+    return values[0] / values[1] if values[1] else None

@@ -18,8 +18,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from engdyn.algebra.element import Element, add_angles
 from engdyn.algebra.polynomials import polynomials
-from engdyn.errors import EngdynError, OutsideRingError
+from engdyn.errors import OutsideRingError
 
 __all__ = ["Definition", "Derivation", "Element", "Ring"]
 
@@ -130,142 +131,28 @@ class Ring:
         elif n == 1:
             pair = self.generator(("cosine", *key)), self.generator(("sine", *key))
         else:
-            pair = add_angles(self.multiple_angle(angle, divisor, 1), self.multiple_angle(angle, divisor, n - 1))
+            pair = add_angles(
+                self.multiple_angle(angle, divisor, 1), self.multiple_angle(angle, divisor, n - 1)
+            )
         self._multiples[key, n] = pair
         return pair
+
+    def independent(self, elements: Iterable[Element]) -> list[int]:
+        """Indices of the independent generators that elements depend on, also inside angles, roots and calls."""
+        found: set[int] = set()
+        waiting = {i for element in elements for i in element.generators()}
+        while waiting:
+            i = waiting.pop()
+            found.add(i)
+            definition = self.definitions.get(i)
+            if definition is not None:
+                waiting |= {j for a in definition.arguments for j in a.generators()} | definition.contains
+                waiting -= found
+        return sorted(i for i in found if i not in self.definitions)
 
     def partial(self, key: Key) -> Derivation:
         """The partial derivative with respect to one independent generator."""
         return Derivation(self, {self.index[key]: self.one} if key in self.index else {})
-
-
-def add_angles(a: tuple[Element, Element], b: tuple[Element, Element]) -> tuple[Element, Element]:
-    """Cosine and sine of a sum of two angles, each given as (cosine, sine)."""
-    return a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]
-
-
-class Element:
-    """An element of a ring: numerator over denominator (None for 1), both polynomials."""
-
-    __slots__ = ("denominator", "numerator", "ring")
-
-    def __init__(self, ring: Ring, numerator: Any, denominator: Any = None):
-        self.ring = ring
-        self.numerator = numerator
-        self.denominator = denominator
-
-    @staticmethod
-    def quotient(ring: Ring, numerator: Any, denominator: Any) -> Element:
-        """Normal form of a quotient: common factors cancelled, denominator monic."""
-        ps = ring.polynomials
-        numerator, denominator = ring.reduce(numerator), ring.reduce(denominator)
-        if ps.is_zero(denominator):
-            raise EngdynError("an expression is divided by something that is zero identically: check its denominators")
-        if ps.is_zero(numerator):
-            return ring.zero
-        if not ps.is_constant(denominator):
-            common = ps.gcd(numerator, denominator)
-            if not ps.is_constant(common):
-                numerator, denominator = ps.quotient(numerator, common), ps.quotient(denominator, common)
-        leading = ps.leading_coefficient(denominator)
-        if leading != 1:
-            scale = ps.constant(1 / leading)
-            numerator, denominator = numerator * scale, denominator * scale
-        return Element(ring, numerator, None if ps.is_constant(denominator) else denominator)
-
-    def _coerce(self, other: Any) -> Element:
-        return other if isinstance(other, Element) else self.ring.constant(other)
-
-    def __add__(self, other: Any) -> Element:
-        other = self._coerce(other)
-        a, b = self.denominator, other.denominator
-        if a is None and b is None:
-            return Element(self.ring, self.numerator + other.numerator)
-        if a is not None and b is not None and a == b:
-            return Element.quotient(self.ring, self.numerator + other.numerator, a)
-        one = self.ring.polynomials.one
-        a, b = a if a is not None else one, b if b is not None else one
-        return Element.quotient(self.ring, self.numerator * b + other.numerator * a, a * b)
-
-    __radd__ = __add__
-
-    def __neg__(self) -> Element:
-        return Element(self.ring, -self.numerator, self.denominator)
-
-    def __sub__(self, other: Any) -> Element:
-        return self + (-self._coerce(other))
-
-    def __rsub__(self, other: Any) -> Element:
-        return self._coerce(other) + (-self)
-
-    def __mul__(self, other: Any) -> Element:
-        other = self._coerce(other)
-        a, b = self.denominator, other.denominator
-        product = self.numerator * other.numerator
-        if a is None and b is None:
-            return Element(self.ring, self.ring.reduce(product))
-        one = self.ring.polynomials.one
-        return Element.quotient(
-            self.ring, product, (a if a is not None else one) * (b if b is not None else one)
-        )
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, other: Any) -> Element:
-        other = self._coerce(other)
-        one = self.ring.polynomials.one
-        a, b = self.denominator, other.denominator
-        return Element.quotient(
-            self.ring,
-            self.numerator * (b if b is not None else one),
-            other.numerator * (a if a is not None else one),
-        )
-
-    def __rtruediv__(self, other: Any) -> Element:
-        return self._coerce(other) / self
-
-    def __pow__(self, n: int) -> Element:
-        if n < 0:
-            return self.ring.one / self ** (-n)
-        result, base = self.ring.one, self
-        while n:
-            if n & 1:
-                result = result * base
-            n >>= 1
-            if n:
-                base = base * base
-        return result
-
-    def is_zero(self) -> bool:
-        """Whether the element is zero identically."""
-        return self.ring.polynomials.is_zero(self.numerator)
-
-    def equals(self, other: Element) -> bool:
-        """Whether both elements (of one ring) are equal identically."""
-        return (self - other).is_zero()
-
-    def as_rational(self) -> Fraction | None:
-        """The value of a constant element, None for any other."""
-        ps = self.ring.polynomials
-        if self.denominator is not None or not ps.is_constant(self.numerator):
-            return None
-        return ps.leading_coefficient(self.numerator)
-
-    def specialize(self, values: dict[int, Fraction]) -> Element:
-        """The element with numbers in place of some independent generators (no angle may contain them)."""
-        ps = self.ring.polynomials
-        above = ps.specialize(self.numerator, values)
-        if self.denominator is None:
-            return Element(self.ring, above)
-        return Element.quotient(self.ring, above, ps.specialize(self.denominator, values))
-
-    def generators(self) -> set[int]:
-        """Indices of the generators that occur."""
-        ps = self.ring.polynomials
-        found = {i for i, d in enumerate(ps.degrees(self.numerator)) if d > 0}
-        if self.denominator is not None:
-            found |= {i for i, d in enumerate(ps.degrees(self.denominator)) if d > 0}
-        return found
 
 
 class Derivation:
@@ -276,10 +163,12 @@ class Derivation:
     ring : Ring
     seeds : dict of int to Element
         Derivative of each independent generator; those not given have derivative zero.
+    unknown : iterable of int
+        Generators whose derivative is not in the ring: asking for it is an error, not zero.
     """
 
-    def __init__(self, ring: Ring, seeds: dict[int, Element]):
-        self.ring = ring
+    def __init__(self, ring: Ring, seeds: dict[int, Element], unknown: Iterable[int] = ()):
+        self.ring, self.unknown = ring, frozenset(unknown)
         self._of: dict[int, Element | None] = dict(seeds)
 
     def __call__(self, element: Element) -> Element:
@@ -303,6 +192,11 @@ class Derivation:
     def of_generator(self, index: int) -> Element | None:
         """Derivative of one generator, None for zero."""
         if index not in self._of:
+            if index in self.unknown:
+                raise OutsideRingError(
+                    f"a time derivative of {self.ring.keys[index][1]} of higher order is needed than the equations "
+                    "of motion can hold: positions and energies must not contain accelerations"
+                )
             definition = self.ring.definitions.get(index)
             value = None if definition is None else self._by_chain_rule(index, definition)
             self._of[index] = None if value is None or value.is_zero() else value
@@ -311,8 +205,8 @@ class Derivation:
     def _by_chain_rule(self, index: int, definition: Definition) -> Element | None:
         if any(self.of_generator(i) is not None for i in definition.contains):
             raise OutsideRingError(
-                f"{self.ring.keys[index][1]} cannot be differentiated exactly: its derivative is not known to the "
-                "algebra; write it with functions whose derivatives are (sin, cos, sqrt, exp, atan, tanh, ...)"
+                f"{self.ring.keys[index][1]} cannot be differentiated exactly: its derivative is not known to "
+                "the algebra; write it with functions whose derivatives are (sin, cos, sqrt, exp, atan, ...)"
             )
         total = None
         for argument, slope in zip(definition.arguments, definition.slopes, strict=False):

@@ -1,8 +1,8 @@
 """Roots, magnitudes and calls: one generator for one function, however it was written.
 
 Two roots of the same radicand, √(x²) and |x|, √(1 − cos²) and |sin| are the same function, so they must
-be the same generator.  Rational square factors go in front of the generator: √(8 a) = 2 √(2 a).  Two
-calls are the same when their arguments are proved equal.
+be the same generator.  Square factors that are rational or made of positive symbols go in front of the
+generator: √(8 l² a) = 2 l √(2 a).  Two calls are the same when their arguments are proved equal.
 """
 
 from __future__ import annotations
@@ -12,12 +12,14 @@ from math import gcd, isqrt, lcm
 
 from engdyn.algebra.ring import Definition, Element, Ring
 
-__all__ = ["define_call", "define_magnitude", "define_root", "squarefree_content"]
+__all__ = ["define_call", "define_magnitude", "define_root", "square_content"]
 
 
 def define_root(ring: Ring, index: int, radicand: Element) -> Element:
-    """√(n d) of a radicand n/d: a rational multiple of generator `index`, or of one known already."""
-    whole, content = squarefree_content(radicand)
+    """√(n d) of a radicand n/d: a positive multiple of generator `index`, or of one known already."""
+    below = radicand.denominator
+    product = radicand.numerator if below is None else radicand.numerator * below
+    whole, content = square_content(Element(ring, ring.reduce(product)))
     known = _known_root(ring, whole)
     if known is not None:
         return known * content
@@ -27,16 +29,18 @@ def define_root(ring: Ring, index: int, radicand: Element) -> Element:
 
 
 def define_magnitude(ring: Ring, index: int, argument: Element) -> Element:
-    """|x| with |x|² = x²: a rational multiple of generator `index`, or of one known already."""
+    """|x| with |x|² = x²: a positive multiple of generator `index`, or of one known already."""
     if argument.denominator is not None:  # |n/d| = |n d|/d²
         below = Element(ring, argument.denominator)
         return define_magnitude(ring, index, Element(ring, argument.numerator) * below) / (below * below)
-    whole, content = squarefree_content(argument * argument)
+    whole, content = square_content(argument * argument)
     known = _known_root(ring, whole)
     if known is not None:
         return known * content
-    argument, generator = argument * (1 / content), Element(ring, ring.polynomials.gens[index])
-    ring.define(index, Definition("magnitude", (argument,), (generator / argument,)))
+    inside, generator = argument / content, Element(ring, ring.polynomials.gens[index])
+    if inside.denominator is not None:
+        inside, content = argument, ring.one
+    ring.define(index, Definition("magnitude", (inside,), (generator / inside,)))
     return generator * content
 
 
@@ -64,21 +68,21 @@ def _known_root(ring: Ring, whole: Element) -> Element | None:
     return None
 
 
-def squarefree_content(radicand: Element) -> tuple[Element, Fraction]:
-    """A radicand n/d as content² · whole with an integer, square-free leading content.
-
-    √(n/d) is then content·√whole/|d|; here the product n·d stands in for n/d.
-    """
-    ring, ps = radicand.ring, radicand.ring.polynomials
-    product = radicand.numerator if radicand.denominator is None else radicand.numerator * radicand.denominator
-    product = ring.reduce(product)
-    coefficients = [c for _, c in ps.terms(product)]
-    if not coefficients:
-        return ring.zero, Fraction(1)
-    below = lcm(*(c.denominator for c in coefficients))
-    content = Fraction(gcd(*(int(c * below) for c in coefficients)), below)
-    outside = Fraction(_square_part(content.numerator * content.denominator), content.denominator)
-    return Element(ring, product) * (1 / outside**2), outside
+def square_content(product: Element) -> tuple[Element, Element]:
+    """A polynomial as whole · content², content being a rational times positive symbols."""
+    ring, ps = product.ring, product.ring.polynomials
+    terms = ps.terms(product.numerator)
+    if not terms:
+        return ring.zero, ring.one
+    below = lcm(*(c.denominator for _, c in terms))
+    common = Fraction(gcd(*(int(c * below) for _, c in terms)), below)
+    rational = Fraction(_square_part(common.numerator * common.denominator), common.denominator)
+    half = tuple(
+        min(exponents[i] for exponents, _ in terms) // 2 if key[0] == "symbol" and key[1].is_positive else 0
+        for i, key in enumerate(ring.keys)
+    )
+    content = Element(ring, ps.from_terms({half: rational}))
+    return product / (content * content), content
 
 
 def _square_part(n: int) -> int:

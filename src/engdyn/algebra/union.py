@@ -83,7 +83,9 @@ class Transfer:
         self._source, self._keys, self._target, self._divisors = source, keys, target, divisors
         self._images: dict[int, Element] = {}
         self._mapping = [
-            target.index.get(key if key[0] not in ("sine", "cosine") else (key[0], key[1], divisors[key[1]]), 0)
+            target.index.get(
+                key if key[0] not in ("sine", "cosine") else (key[0], key[1], divisors[key[1]]), 0
+            )
             for key in keys
         ]
 
@@ -98,7 +100,10 @@ class Transfer:
         source, target = self._source.polynomials, self._target.polynomials
         used = [i for i, degree in enumerate(source.degrees(p)) if degree > 0]
         images = {i: self.image(i) for i in used}
-        if all(image.denominator is None and image.numerator == target.gens[self._mapping[i]] for i, image in images.items()):
+        if all(
+            image.denominator is None and image.numerator == target.gens[self._mapping[i]]
+            for i, image in images.items()
+        ):
             moved = source.transfer(p, target, self._mapping)
             return Element(self._target, self._target.reduce(moved))
         total = self._target.zero

@@ -258,26 +258,7 @@ class _Search:
         self.undecided.append(box)
 
     def _newton(self, box: Box) -> _Step | None:
-        """Return one Newton step on a box, None when the box is proved to hold no root."""
-        variables = [ball(low, high) for low, high in box]
-        ranges = [ball(value) for value in self.function(variables)]
-        if not all(map(contains_zero, ranges)):
-            return None
-        slopes = [[ball(entry) for entry in row] for row in self.jacobian(variables)]
-        if not all(map(is_finite, chain(ranges, *slopes))):  # perhaps not continuous: no mean value theorem
-            return _Step(box, proved=False, regular=False, slopes=None)
-        center = [_middle(pair) for pair in box]
-        values = [ball(value) for value in self.function([ball(c) for c in center])]
-        spread = [x - c for x, c in zip(variables, center, strict=True)]
-        for value, row in zip(values, slopes, strict=True):  # mean value form
-            for slope, d in zip(row, spread, strict=True):
-                value = value + slope * d
-            if not contains_zero(value):
-                return None
-        inverse = _inverse([[midpoint(entry) for entry in row] for row in slopes])
-        if inverse is None:
-            return _Step(box, proved=False, regular=False, slopes=slopes)
-        return _contract(box, center, spread, values, slopes, inverse)
+        return _newton_step(self.function, self.jacobian, box)
 
     def _accept_inflated(self, box: Box, inner: Box, image: Box) -> bool:
         """Try to prove a root on a cut or an edge, which no box it borders can hold in its interior.
@@ -316,6 +297,29 @@ class _Search:
                 return
         self.accepted.append((single, root))
         self.rejected.extend(_subtract(box, single))
+
+
+def _newton_step(function: Callable, jacobian: Callable, box: Box) -> _Step | None:
+    """Return one Newton step on a box, None when the box is proved to hold no root."""
+    variables = [ball(low, high) for low, high in box]
+    ranges = [ball(value) for value in function(variables)]
+    if not all(map(contains_zero, ranges)):
+        return None
+    slopes = [[ball(entry) for entry in row] for row in jacobian(variables)]
+    if not all(map(is_finite, chain(ranges, *slopes))):  # perhaps not continuous: no mean value theorem
+        return _Step(box, proved=False, regular=False, slopes=None)
+    center = [_middle(pair) for pair in box]
+    values = [ball(value) for value in function([ball(c) for c in center])]
+    spread = [x - c for x, c in zip(variables, center, strict=True)]
+    for value, row in zip(values, slopes, strict=True):  # mean value form
+        for slope, d in zip(row, spread, strict=True):
+            value = value + slope * d
+        if not contains_zero(value):
+            return None
+    inverse = _inverse([[midpoint(entry) for entry in row] for row in slopes])
+    if inverse is None:
+        return _Step(box, proved=False, regular=False, slopes=slopes)
+    return _contract(box, center, spread, values, slopes, inverse)
 
 
 def _effects(slopes: list[list[Any]], box: Box) -> list[float] | None:

@@ -209,11 +209,12 @@ class SteadyProblem:
     def _check_steady(self, rows: Sequence[Element], motion: Mapping[Key, Fraction], tied: Ties) -> None:
         """Refuse prescribed rates with which an equation changes in time; a free input may follow it."""
         ring, named = self.ring, dict(zip(self.names, self.eom.coordinates, strict=True))
-        sliding = {n: x for n, x in self.rates.items() if x}
-        for _, direction in tied:  # along these nothing changes
+        sliding = dict(self.rates)
+        for pivot, direction in tied:  # along these nothing changes
+            rate = self.rates.get(self.names[pivot], Fraction(0))
             for name, share in zip(self.names, direction, strict=True):
-                if share:
-                    sliding.pop(name, None)
+                sliding[name] = sliding.get(name, Fraction(0)) - share * rate
+        sliding = {n: x for n, x in sliding.items() if x}
         gaining = {n: x for n, x in self.accelerations.items() if x}
         drift = {("function", named[n], 0): x for n, x in sliding.items()}
         drift |= {("function", named[n], 1): x for n, x in gaining.items()}
@@ -271,7 +272,8 @@ class SteadyProblem:
 
     def _eliminate_one(self, bounded: Collection[str]) -> bool:
         inner = inside_definitions(self.ring, self.rows)
-        for unknown in sorted(self.unknowns[::-1], key=lambda u: u.name in bounded):
+        order = sorted(range(len(self.unknowns)), key=lambda i: (self.unknowns[i].name in bounded, -i))
+        for unknown in (self.unknowns[i] for i in order):
             index = self.ring.index.get(unknown.key)
             if index is None or index in inner:
                 continue

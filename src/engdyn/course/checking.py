@@ -46,10 +46,8 @@ def check(id: str, answer: Any, student: Any = None) -> Verdict:
     """
     item = exercise(id)
     case = item.case(student)
-    if is_unanswered(answer):
-        return replace(unanswered(), exercise=item.id)
     try:
-        verdict = item.question.judge(answer, case)
+        verdict = unanswered() if is_unanswered(answer) else item.question.judge(answer, case)
     except EngdynError as error:
         verdict = not_yet(_sentence(error))
     except Exception as error:  # whatever an odd object does when it is looked at

@@ -83,7 +83,7 @@ def _value(expr: sm.Basic, point: Mapping[sm.Expr, Any], known: dict) -> tuple[A
 
 def _checked(value: Any) -> Any:
     if not isinstance(value, _numbers.mpf):
-        raise NoValueError("a root or a function outside its domain")
+        raise NoValueError("a root or another function outside its domain")
     if not _numbers.isfinite(value) or abs(value) > _numbers.ldexp(1, EXPONENT):
         raise NoValueError("a number out of range")
     return value
@@ -99,6 +99,10 @@ def _other(expr: sm.Basic, point: Mapping[sm.Expr, Any], known: dict) -> Any:
         return +_numbers.e
     if isinstance(expr, sm.Pow):
         return _power(*(_value(a, point, known)[0] for a in expr.args))
+    if expr is sm.I:
+        raise NoValueError("the root of a negative number")
+    if expr in (sm.zoo, sm.oo, -sm.oo, sm.nan):
+        raise ZeroDivisionError
     function = _FUNCTIONS.get(type(expr))
     if function is None:
         raise NoValueError(f"{type(expr).__name__} cannot be evaluated")

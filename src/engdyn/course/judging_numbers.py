@@ -90,7 +90,7 @@ class Number:
         if truth == 0 or given == 0:
             return "Your number is zero, the result is not." if given == 0 else "Your number is too large: look for symmetry."
         ratio = given / truth
-        for simple in (1, 2, 0.5, math.pi / 180, 180 / math.pi, 2 * math.pi, 0.5 / math.pi):
+        for simple in (1, 2, 0.5, math.pi / 180, 180 / math.pi, 2 * math.pi, 0.5 / math.pi, 30 / math.pi, math.pi / 30):
             for sign in (1, -1):
                 if abs(ratio / (sign * simple) - 1) <= TOLERANCES[self.tolerance]:
                     return ratio_in_words(sign * simple, "number")

@@ -57,8 +57,14 @@ class RootSet:
     kind: ClassVar[str] = "set"
 
     def solution(self, case: Case) -> tuple[float, ...]:
-        """All roots [SI], sorted, computed from the system."""
-        return tuple(sorted(float(root) for root in self.truth(case)))
+        """All roots [SI], sorted, computed from the system; angles in (−π, π], each once."""
+        found: list[float] = []
+        for root in map(float, self.truth(case)):
+            if self.periodic and root <= -math.pi + 1e-9:
+                root += 2 * math.pi
+            if not any(self._apart(root, other) < 1e-9 for other in found):
+                found.append(root)
+        return tuple(sorted(found))
 
     def mistakes(self, case: Case) -> dict[tuple[float, ...], str]:
         """Wrong sets of roots at these values, as sorted tuples, and their hints."""

@@ -64,7 +64,9 @@ class Notation:
             return _number(answer)
         if getattr(answer, "shape", None) == () and hasattr(answer, "item"):
             return self.expression(answer.item())
-        raise FormulaError(f"This is a {type(answer).__name__}. Give one expression, as text or made with sympy.")
+        if answer is None:
+            raise FormulaError("Your answer is None: does a function lack its return?")
+        raise FormulaError(f"An answer of type {type(answer).__name__} is no formula. Give text or a sympy expression.")
 
     def residual(self, answer: Any) -> sm.Expr:
         """Left side minus right side of an equation: text with or without ``=``, ``sympy.Eq``, an expression."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import count, islice
 from math import comb, lcm
 from typing import Any
 
@@ -49,40 +50,53 @@ class Points:
         values: Mapping[str, float],
         accepted: Callable[[dict[str, float]], bool] = lambda values: True,
     ):
-        self.system, self.values, self._accepted = system, dict(values), accepted
+        self.values, self._accepted = dict(values), accepted
+        t = dynamicsymbols._t
+        self._parameters = {p.symbol: p.name for p in system.parameters}
+        self._moving = [
+            ([moving.symbol.diff(t, order) if order else moving.symbol for order in (0, 1, 2)], _bounds(moving))
+            for moving in (*system.coordinates, *system.inputs)
+        ]
         self._drawn: list[dict[sm.Expr, Any]] = []
         self._source = random.Random(20)
 
-    def take(self, count: int) -> list[dict[sm.Expr, Any]]:
-        """The first `count` points: symbol → 200-bit number."""
-        while len(self._drawn) < count:
-            self._drawn.append(self._draw())
-        return self._drawn[:count]
+    def __iter__(self) -> Iterator[dict[sm.Expr, Any]]:
+        """Points without end: symbol → 200-bit number."""
+        for at in count():
+            if at == len(self._drawn):
+                self._drawn.append(self._draw())
+            yield self._drawn[at]
+
+    def take(self, number: int) -> list[dict[sm.Expr, Any]]:
+        """The first points."""
+        return list(islice(self, number))
 
     def here(self) -> dict[sm.Expr, Any]:
         """The parameters alone, at the values of the exercise."""
-        return {p.symbol: real(self.values[p.name]) for p in self.system.parameters}
+        return {symbol: real(self.values[name]) for symbol, name in self._parameters.items()}
 
     def _draw(self) -> dict[sm.Expr, Any]:
-        values = self._parameters()
+        uniform, values = self._source.uniform, self._near()
         for _ in range(50):
             if self._accepted(values):
                 break
-            values = self._parameters()
-        point = {p.symbol: real(values[p.name]) for p in self.system.parameters}
-        t = dynamicsymbols._t
-        for moving in (*self.system.coordinates, *self.system.inputs):
-            low, high = getattr(moving, "bounds", None) or (-2.0, 2.0)
-            point[moving.symbol] = real(low + (high - low) * self._source.uniform(0.15, 0.85))
-            for order in (1, 2):
-                point[moving.symbol.diff(t, order)] = real(self._source.uniform(-2.0, 2.0))
+            values = self._near()
+        point = {symbol: real(values[name]) for symbol, name in self._parameters.items()}
+        for (place, rate, acceleration), (low, high) in self._moving:
+            point[place] = real(low + (high - low) * uniform(0.15, 0.85))
+            point[rate], point[acceleration] = real(uniform(-2.0, 2.0)), real(uniform(-2.0, 2.0))
         return point
 
-    def _parameters(self) -> dict[str, float]:
+    def _near(self) -> dict[str, float]:
+        uniform = self._source.uniform
         return {
-            name: value * self._source.uniform(0.8, 1.2) if value else self._source.uniform(0.1, 1.0)
-            for name, value in self.values.items()
+            name: value * uniform(0.8, 1.2) if value else uniform(0.1, 1.0) for name, value in self.values.items()
         }
+
+
+def _bounds(moving: Any) -> tuple[float, float]:
+    """Where a coordinate or an input is drawn."""
+    return getattr(moving, "bounds", None) or (-2.0, 2.0)
 
 
 def same(a: sm.Expr, b: sm.Expr, points: Points) -> bool:
@@ -116,7 +130,7 @@ def _rounded(expr: sm.Expr) -> bool:
 def agree(a: sm.Expr, b: sm.Expr, points: Points, tolerance: float, enough: int = ENOUGH) -> bool:
     """Whether two expressions have the same values, within a share of their scale, at enough points."""
     found = 0
-    for x, y, scale in value_pairs(a, b, points.take(ATTEMPTS)):
+    for x, y, scale in value_pairs(a, b, islice(points, ATTEMPTS)):
         if abs(x - y) > tolerance * scale:
             return False
         found += 1

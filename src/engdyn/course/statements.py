@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from fractions import Fraction
+from math import pi
 from typing import Any
 
-import mpmath
 import sympy as sm
 
 from engdyn.course.case import Case
@@ -93,9 +93,11 @@ def ratio_in_words(ratio: float, noun: str) -> str:
     simple = Fraction(size).limit_denominator(12)
     if abs(size - 1) < ROUNDED:
         return f"Only the sign of your {noun} is wrong: check the positive directions."
-    if abs(size * float(mpmath.pi) / 180 - 1) < 1e-9 or abs(size / float(mpmath.pi) * 180 - 1) < 1e-9:
+    if _either_way(size, 180 / pi):
         return f"Your {noun} mixes degrees and radians{sign}: work in radians."
-    if abs(size / (2 * float(mpmath.pi)) - 1) < 1e-9 or abs(size * 2 * float(mpmath.pi) - 1) < 1e-9:
+    if _either_way(size, 60 / (2 * pi)):
+        return f"Your {noun} mixes revolutions per minute and radians per second{sign}."
+    if _either_way(size, 2 * pi):
         return f"Your {noun} is off by the factor 2 pi{sign}: hertz is not radian per second."
     if abs(size - 2) < ROUNDED or abs(size - 0.5) < ROUNDED:
         cause = "large by the factor 2", "is something counted twice?"
@@ -105,6 +107,11 @@ def ratio_in_words(ratio: float, noun: str) -> str:
     if simple and abs(size / float(simple) - 1) < ROUNDED:
         return f"Your {noun} is right but for a constant factor{sign}: check the numbers in front."
     return f"Your {noun} is right but for a constant factor{sign}, which is no simple fraction: is a number put in?"
+
+
+def _either_way(size: float, factor: float) -> bool:
+    """Whether a ratio is a factor or its reciprocal."""
+    return abs(size / factor - 1) < ROUNDED or abs(size * factor - 1) < ROUNDED
 
 
 def _power_of_truth(given: sm.Expr, truth: sm.Expr, case: Case) -> str:

@@ -48,7 +48,9 @@ class Difference:
             "sign": f"the term {self.term} has the wrong sign",
             "factor": f"the term {self.term} is multiplied by {self.factor}",
         }[self.kind]
-        twice = self.kind == "factor" and self.factor == 2 and any(s.name == "g" for s in self.term.free_symbols)
+        twice = (
+            self.kind == "factor" and self.factor == 2 and any(s.name == "g" for s in self.term.free_symbols)
+        )
         return f"equation {self.equation}: {what}{' (gravity counted twice?)' if twice else ''}"
 
 

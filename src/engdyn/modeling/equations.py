@@ -55,7 +55,9 @@ class EquationsOfMotion:
     defaults: Mapping[sm.Expr, tuple[sm.Expr, sm.Expr, sm.Expr]] = field(default_factory=dict)
 
     @classmethod
-    def from_residuals(cls, equations: Iterable[sm.Expr | sm.Eq], coordinates: Sequence[sm.Expr]) -> EquationsOfMotion:
+    def from_residuals(
+        cls, equations: Iterable[sm.Expr | sm.Eq], coordinates: Sequence[sm.Expr]
+    ) -> EquationsOfMotion:
         """Your own equations of motion, each an expression that is zero (or a sympy ``Eq``).
 
         Parameters
@@ -84,8 +86,6 @@ class EquationsOfMotion:
         rows = [state.convert(r) for r in residuals]
         partials = state.acceleration_partials()
         mass = tuple(tuple(partial(row) for partial in partials) for row in rows)
-        if any(not partial(entry).is_zero() for line in mass for entry in line for partial in partials):
-            raise EngdynError("the equations are not linear in the accelerations: solve products and powers of them first")
         force = []
         for row, line in zip(rows, mass, strict=True):
             for entry, key in zip(line, state.acceleration_keys, strict=True):
@@ -102,7 +102,8 @@ class EquationsOfMotion:
         origin: str,
         solve_reactions: Callable[[], dict[sm.Symbol, sm.Expr]] | None = None,
     ) -> EquationsOfMotion:
-        """Equations from ring elements, after a check that every coordinate has inertia."""
+        """Equations from ring elements, after a check that they are linear and every speed has inertia."""
+        _check_linear(state, [*(e for row in mass for e in row), *force])
         for j, u in enumerate(state.speeds):
             if all(row[j].is_zero() for row in mass):
                 raise EngdynError(
@@ -160,16 +161,8 @@ class EquationsOfMotion:
     @cached_property
     def occurring(self) -> tuple[tuple, ...]:
         """Keys of the independent generators that the equations contain, those inside angles too."""
-        found: set[int] = set()
-        waiting = {i for e in (*(x for row in self.mass for x in row), *self.force, *self.rates) for i in e.generators()}
-        while waiting:
-            i = waiting.pop()
-            if i not in found:
-                found.add(i)
-                definition = self.ring.definitions.get(i)
-                if definition is not None:
-                    waiting |= {j for a in definition.arguments for j in a.generators()} | set(definition.contains)
-        return tuple(self.ring.keys[i] for i in sorted(found) if i not in self.ring.definitions)
+        elements = [*(e for row in self.mass for e in row), *self.force, *self.rates]
+        return tuple(self.ring.keys[i] for i in self.ring.independent(elements))
 
     # Numbers
 
@@ -265,3 +258,19 @@ def _residual(equation: Any) -> sm.Expr:
     )
 
 
+def _check_linear(state: State, elements: Sequence[Element]) -> None:
+    """Nothing but coordinates and speeds may be left of the motion in M and f."""
+    own = {key[1] for key in state.speed_keys} | set(state.coordinates)
+    allowed = {("function", q, 0) for q in state.coordinates} | set(state.speed_keys)
+    for i in state.ring.independent(elements):
+        key = state.ring.keys[i]
+        if key[0] != "function" or key[1] not in own or key in allowed:
+            continue
+        if key in state.acceleration_keys:
+            raise EngdynError(
+                "the equations are not linear in the accelerations: solve products and powers of them first"
+            )
+        raise EngdynError(
+            f"the equations contain the time derivative of order {key[2]} of {key[1]}, which is neither a coordinate "
+            "nor a speed: write it in terms of these"
+        )

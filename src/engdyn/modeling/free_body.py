@@ -46,7 +46,9 @@ class FreeBody:
             loads = (loads,) if isinstance(loads, Force | Torque) else tuple(loads)
             for load in loads:
                 if not isinstance(load, Force | Torque):
-                    raise EngdynError(f"{load!r} among the {kind} loads of {self.name} is neither a Force nor a Torque")
+                    raise EngdynError(
+                        f"{load!r} among the {kind} loads of {self.name} is neither a Force nor a Torque"
+                    )
             object.__setattr__(self, kind, loads)
 
     @property

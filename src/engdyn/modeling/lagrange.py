@@ -88,11 +88,14 @@ def lagrange(
     if constraints:
         independent, rates = dependent_rates(coordinates, constraints, speeds)
     elif speeds is not None and tuple(speeds) != tuple(q.diff(dynamicsymbols._t) for q in coordinates):
-        raise EngdynError("without constraints the speeds of Lagrange's equations are the rates of the coordinates")
+        raise EngdynError(
+            "without constraints the speeds of Lagrange's equations are the rates of the coordinates"
+        )
     terms = [kinetic, potential, dissipation, *forces.values()]
     state = State(coordinates, terms, independent, rates, substitute=False, moving=[kinetic])
     mass, force = _equations(state, kinetic, potential, dissipation, forces)
     if constraints:
+        state, mass, force = _with_rates_inside(state, mass, force)
         mass, force = _projected(state, mass, force)
     return EquationsOfMotion.from_elements(state, mass, force, "Lagrange")
 
@@ -105,7 +108,9 @@ def _energy(expr: Any, name: str) -> sm.Expr:
     return expr
 
 
-def _forces(forces: Mapping[sm.Expr, sm.Expr] | None, coordinates: Sequence[sm.Expr]) -> dict[sm.Expr, sm.Expr]:
+def _forces(
+    forces: Mapping[sm.Expr, sm.Expr] | None, coordinates: Sequence[sm.Expr]
+) -> dict[sm.Expr, sm.Expr]:
     given = dict(forces or {})
     unknown = [q for q in given if q not in coordinates]
     if unknown:
@@ -114,35 +119,62 @@ def _forces(forces: Mapping[sm.Expr, sm.Expr] | None, coordinates: Sequence[sm.E
 
 
 def _equations(
-    state: State, kinetic: sm.Expr, potential: sm.Expr, dissipation: sm.Expr, forces: Mapping[sm.Expr, sm.Expr]
+    state: State,
+    kinetic: sm.Expr,
+    potential: sm.Expr,
+    dissipation: sm.Expr,
+    forces: Mapping[sm.Expr, sm.Expr],
 ) -> tuple[list[list[Element]], list[Element]]:
     """M and f of Lagrange's equations in all n coordinates."""
     ring = state.ring
-    T, V, D = state.convert(kinetic), state.convert(potential), state.convert(dissipation)
+    T, V, D = (_without_accelerations(state, e) for e in (kinetic, potential, dissipation))
     by_q = [ring.partial(("function", q, 0)) for q in state.coordinates]
     by_rate = [ring.partial(("function", q, 1)) for q in state.coordinates]
+    by_acceleration = [(ring.partial(key), ring.generator(key)) for key in _acceleration_keys(state)]
     if any(not partial(V).is_zero() for partial in by_rate):
-        raise EngdynError("the potential energy contains a rate: put velocity-dependent effects into D or the forces")
-    accelerations = {ring.index["function", q, 2] for q in state.coordinates}
-    velocity_part = Derivation(
-        ring, {i: e for i in range(len(ring.keys)) if (e := _plain_rate(state, i, accelerations)) is not None}
-    )
+        raise EngdynError(
+            "the potential energy contains a rate: put velocity-dependent effects into D or the forces"
+        )
+    velocity_part = _velocity_part(state)
     mass, force = [], []
     for q, d_q, d_rate in zip(state.coordinates, by_q, by_rate, strict=True):
         momentum, attraction = d_rate(T), -d_q(V)
         Q = state.convert(forces[q])
         _check_counted_once(q, Q, attraction)
-        mass.append([partial(momentum) for partial in by_rate])
+        carried = [partial(Q) for partial, _ in by_acceleration]  # a force with accelerations is inertia
+        for entry, (_, acceleration) in zip(carried, by_acceleration, strict=True):
+            Q = Q - entry * acceleration
+        mass.append([partial(momentum) - entry for partial, entry in zip(by_rate, carried, strict=True)])
         force.append(d_q(T) + attraction - d_rate(D) + Q - velocity_part(momentum))
     return mass, force
 
 
-def _plain_rate(state: State, index: int, accelerations: set[int]) -> Element | None:
-    """Time derivative of an independent generator, the accelerations left out (they go into M)."""
-    if index in state.ring.definitions:
-        return None
-    rate = state.time_derivative.of_generator(index)
-    return None if rate is None or rate.generators() & accelerations else rate
+def _acceleration_keys(state: State) -> list[tuple[Any, ...]]:
+    return [("function", q, 2) for q in state.coordinates]
+
+
+def _without_accelerations(state: State, energy: sm.Expr) -> Element:
+    """An energy as an element; accelerations do not belong there."""
+    element = state.convert(energy)
+    wrong = {state.ring.keys[i] for i in state.ring.independent([element])} & {*_acceleration_keys(state)}
+    if wrong:
+        raise EngdynError(
+            f"an energy or dissipation function contains an acceleration, that of {next(iter(wrong))[1]}: "
+            "energies depend on coordinates and rates only"
+        )
+    return element
+
+
+def _velocity_part(state: State) -> Derivation:
+    """The time derivative without the accelerations of the coordinates: these go into M."""
+    ring, rate_of = state.ring, state.time_derivative
+    accelerations = {ring.index[key] for key in _acceleration_keys(state)}
+    seeds = {}
+    for i in range(len(ring.keys)):
+        rate = None if i in ring.definitions or i in rate_of.unknown else rate_of.of_generator(i)
+        if rate is not None and not rate.generators() & accelerations:
+            seeds[i] = rate
+    return Derivation(ring, seeds, rate_of.unknown)
 
 
 def _check_counted_once(q: sm.Expr, Q: Element, attraction: Element) -> None:
@@ -161,14 +193,36 @@ def _check_counted_once(q: sm.Expr, Q: Element, attraction: Element) -> None:
         )
 
 
-def _projected(state: State, mass: list[list[Element]], force: list[Element]) -> tuple[list[list[Element]], list[Element]]:
+def _with_rates_inside(
+    state: State, mass: list[list[Element]], force: list[Element]
+) -> tuple[State, list[list[Element]], list[Element]]:
+    """The same equations where dependent rates inside roots, magnitudes and calls are replaced, too."""
+    rates = {("function", q, 1) for q in state.rates}
+    ring, entries = state.ring, [*(e for row in mass for e in row), *force]
+    inner = [a for i in _used(entries) if i in ring.definitions for a in ring.definitions[i].arguments]
+    opaque = {j for i in _used(entries) if i in ring.definitions for j in ring.definitions[i].contains}
+    if not rates & {ring.keys[i] for i in {*ring.independent(inner), *opaque}}:
+        return state, mass, force
+    lines = [[to_sympy(tree(e)) for e in row] for row in mass]
+    column = [to_sympy(tree(e)) for e in force]
+    state = State(
+        state.coordinates, [*(e for line in lines for e in line), *column], state.speeds, state.rates
+    )
+    return state, [[state.convert(e) for e in line] for line in lines], [state.convert(e) for e in column]
+
+
+def _used(elements: Sequence[Element]) -> set[int]:
+    return {i for e in elements for i in e.generators()}
+
+
+def _projected(
+    state: State, mass: list[list[Element]], force: list[Element]
+) -> tuple[list[list[Element]], list[Element]]:
     """Project the n equations on the m independent speeds: Gᵀ M G u̇ = Gᵀ (f − M (q̈ without u̇))."""
     ring = state.ring
     rates = state.rate_elements()
-    dependent = {
-        ring.index["function", q, 1]: state.convert(rate)
-        for q, rate in state.rates.items()
-    }
+    keys = {q: ("function", q, 1) for q in state.rates}
+    dependent = {ring.index[k]: state.convert(state.rates[q]) for q, k in keys.items() if k in ring.index}
     speeds, accelerations = state.speed_partials(), state.acceleration_partials()
     G = [[partial(rate) for partial in speeds] for rate in rates]
     curvature = []

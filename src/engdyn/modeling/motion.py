@@ -17,7 +17,16 @@ from engdyn.algebra.ring import Element
 from engdyn.errors import EngdynError
 from engdyn.modeling.state import State
 
-__all__ = ["Motion", "VectorPath", "cross", "dot", "measure_numbers", "path_of_point", "rotation_steps", "spin_steps"]
+__all__ = [
+    "Motion",
+    "VectorPath",
+    "cross",
+    "dot",
+    "measure_numbers",
+    "path_of_point",
+    "rotation_steps",
+    "spin_steps",
+]
 
 Triple = list[Element]
 
@@ -36,7 +45,9 @@ def rotation_steps(a: ReferenceFrame, b: ReferenceFrame) -> list[sm.Matrix]:
     try:
         frames = a._dict_list(b, 0)
     except ValueError as error:
-        raise EngdynError(f"frame {b} is not oriented with respect to frame {a}: orient it, e.g. with orient_axis") from error
+        raise EngdynError(
+            f"frame {b} is not oriented with respect to frame {a}: orient it, e.g. with orient_axis"
+        ) from error
     return [one._dcm_dict[two] for one, two in zip(frames, frames[1:], strict=False)]
 
 
@@ -47,7 +58,9 @@ def spin_steps(a: ReferenceFrame, b: ReferenceFrame) -> list[Vector]:
     try:
         frames = a._dict_list(b, 1)
     except ValueError as error:
-        raise EngdynError(f"frame {a} has no angular velocity in {b}: orient it or call set_ang_vel") from error
+        raise EngdynError(
+            f"frame {a} has no angular velocity in {b}: orient it or call set_ang_vel"
+        ) from error
     return [one._ang_vel_dict[two] for one, two in zip(frames, frames[1:], strict=False)]
 
 

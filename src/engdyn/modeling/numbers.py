@@ -49,7 +49,9 @@ def input_values(
     known = {w.func.__name__: w for w in eom.inputs}
     for name in given:
         if name not in known:
-            raise EngdynError(f"unknown input {name!r}: the equations have {', '.join(sorted(known)) or 'none'}")
+            raise EngdynError(
+                f"unknown input {name!r}: the equations have {', '.join(sorted(known)) or 'none'}"
+            )
     found: list[float] = []
     for name, function in known.items():
         if name in given:
@@ -67,9 +69,13 @@ def _input_triple(name: str, value: Any) -> list[float]:
     try:
         parts = list(value)
     except TypeError as error:
-        raise EngdynError(f"input {name} is {value!r}: give a number or (value, rate, acceleration)") from error
+        raise EngdynError(
+            f"input {name} is {value!r}: give a number or (value, rate, acceleration)"
+        ) from error
     if len(parts) != 3:
-        raise EngdynError(f"input {name} has {len(parts)} entries: give a number or (value, rate, acceleration)")
+        raise EngdynError(
+            f"input {name} has {len(parts)} entries: give a number or (value, rate, acceleration)"
+        )
     return [_finite(part, f"input {name}") for part in parts]
 
 
@@ -79,7 +85,12 @@ def _default(part: sm.Expr, values: Mapping[str, float], t: float) -> float:
 
 
 def accelerations(
-    eom: EquationsOfMotion, q: Any, u: Any, values: Mapping[str, float], inputs: Mapping[str, Any] | None, t: float
+    eom: EquationsOfMotion,
+    q: Any,
+    u: Any,
+    values: Mapping[str, float],
+    inputs: Mapping[str, Any] | None,
+    t: float,
 ) -> np.ndarray:
     """Implementation of :meth:`EquationsOfMotion.accelerations`."""
     q, u = _states(eom, q, u)
@@ -91,7 +102,9 @@ def accelerations(
     stacked = np.stack([np.broadcast_to(np.asarray(x, dtype=float), shape) for x in flat], axis=-1)
     mass, force = stacked[..., : m * m].reshape(*shape, m, m), stacked[..., m * m :]
     if not np.all(np.isfinite(stacked)):
-        raise EngdynError("the equations of motion are not finite at this state: a root or a quotient has no value there")
+        raise EngdynError(
+            "the equations of motion are not finite at this state: a root or a quotient has no value there"
+        )
     try:
         found = np.linalg.solve(mass, force[..., None])[..., 0]
     except np.linalg.LinAlgError:
@@ -142,7 +155,9 @@ def state_derivative(eom: EquationsOfMotion, values: Mapping[str, float]) -> Cal
         try:
             udot = np.linalg.solve(mass, np.array(flat[m * m : m * m + m]))
         except np.linalg.LinAlgError as error:
-            raise EngdynError(f"singular mass matrix at t = {t:.5g} s, x = {np.asarray(x).tolist()}") from error
+            raise EngdynError(
+                f"singular mass matrix at t = {t:.5g} s, x = {np.asarray(x).tolist()}"
+            ) from error
         return np.concatenate([flat[m * m + m : m * m + m + n], udot])
 
     return derivative

@@ -26,7 +26,9 @@ Key = tuple
 def check_coordinates(coordinates: Iterable[sm.Expr]) -> tuple[sm.Expr, ...]:
     """The coordinates as a tuple of distinct dynamicsymbols."""
     if isinstance(coordinates, sm.Basic):
-        raise EngdynError(f"coordinates must be a list of dynamicsymbols, not the single expression {coordinates}: write [{coordinates}]")
+        raise EngdynError(
+            f"coordinates must be a list of dynamicsymbols, not the single expression {coordinates}: write [{coordinates}]"
+        )
     found = tuple(coordinates)
     for q in found:
         if not isinstance(q, AppliedUndef) or derivative_key(q) is None:
@@ -75,14 +77,16 @@ class State:
         if not substitute:
             keys = [("function", q, k) for k in (2, 1) for q in self.coordinates]
         keys += [("function", q, 0) for q in self.coordinates]
-        keys += self._prescribed(moving, keys)
+        keys += self._prescribed([*moving, *self.rates.values()], keys)
         substitutions = {("function", q, 1): rate for q, rate in self.rates.items()} if substitute else {}
         self.converter = Converter([*expressions, *self.rates.values()], keys, substitutions)
         self.convert = self.converter.convert
         self.ring: Ring = self.converter.ring
         self.speed_keys = speed_keys
         self.acceleration_keys = [("function", u[1], u[2] + 1) for u in speed_keys]
-        self.time_derivative = Derivation(self.ring, self._time_seeds())
+        seeds = self._time_seeds()
+        functions = [i for i, key in enumerate(self.ring.keys) if key[0] == "function"]
+        self.time_derivative = Derivation(self.ring, seeds, unknown=set(functions) - set(seeds))
 
     def _prescribed(self, moving: Iterable[sm.Expr], known: list[Key]) -> list[Key]:
         """Keys of prescribed motions and their first two derivatives, as far as they are needed."""
@@ -146,7 +150,9 @@ def dependent_rates(
     matrix = [[partial(row) for partial in partials] for row in rows]
     for line, row in zip(matrix, rows, strict=True):
         if any(partial(entry).is_zero() is False for entry in line for partial in partials):
-            raise EngdynError("a velocity constraint is not linear in the rates of the coordinates: differentiate it")
+            raise EngdynError(
+                "a velocity constraint is not linear in the rates of the coordinates: differentiate it"
+            )
         rest = row
         for entry, u in zip(line, state.speed_keys, strict=True):
             rest = rest - entry * state.ring.generator(u)
@@ -168,7 +174,9 @@ def dependent_rates(
 def _known_rates(state: State, speeds: Sequence[sm.Expr]) -> Sequence[sm.Expr]:
     for u in speeds:
         if u not in state.speeds:
-            raise EngdynError(f"the speed {u} is not the rate of a coordinate; choose among {list(state.speeds)}")
+            raise EngdynError(
+                f"the speed {u} is not the rate of a coordinate; choose among {list(state.speeds)}"
+            )
     return speeds
 
 
@@ -185,7 +193,9 @@ def _dependent_columns(matrix: list[list[Element]], order: list[int]) -> list[in
     return sorted(chosen)
 
 
-def _solved(matrix: list[list[Element]], dependent: list[int], independent: list[int], state: State) -> list[Element]:
+def _solved(
+    matrix: list[list[Element]], dependent: list[int], independent: list[int], state: State
+) -> list[Element]:
     """Dependent rates as linear combinations of the independent ones."""
     from engdyn.algebra.elimination import solve
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from sympy import pi
 from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.balls import BACKEND, ball, contains_zero, is_finite, midpoint
@@ -76,21 +77,25 @@ def sample_states(keys: Sequence[tuple[Any, ...]]) -> Iterator[dict[tuple[Any, .
     """Rational values of all independent generators, different at every turn, reproducible."""
     source = random.Random(1788)
     for turn in range(ATTEMPTS):
-        spread = 1 if turn % 2 == 0 else 4
-        yield {
-            key: Fraction(source.randint(20, 300 * spread), 101)
-            if key[0] == "symbol" and key[1] != dynamicsymbols._t
-            else Fraction(source.randint(-150, 150) or 7, 101)
-            for key in keys
-        }
+        yield {key: _drawn(key, source, turn) for key in keys}
 
 
-def different_values(ring: Ring, names: Sequence[str], a: Sequence[Element], b: Sequence[Element]) -> Witness | None:
+def _drawn(key: tuple[Any, ...], source: random.Random, turn: int) -> Fraction:
+    """A number for one generator; parameters have the sign that their symbol is known to have."""
+    if key[0] != "symbol" or key[1] == dynamicsymbols._t:
+        return Fraction(source.randint(-150, 150) or 7, 101)
+    value = Fraction(source.randint(20, 300 if turn % 2 == 0 else 1200), 101)
+    either_sign = key[1].is_extended_real and key[1].is_extended_nonnegative is None
+    return -value if key[1].is_extended_nonpositive or (either_sign and turn % 4 == 3) else value
+
+
+def different_values(
+    ring: Ring, names: Sequence[str], a: Sequence[Element], b: Sequence[Element]
+) -> Witness | None:
     """A state at which corresponding elements of two lists have different values, None if none was found."""
     keys = _independent(ring, [*a, *b])
-    try:
-        function = compile_elements([*a, *b], keys, "balls")
-    except OutsideRingError:
+    function = _compiled([*a, *b], keys)
+    if function is None:
         return None
     for state in sample_states(keys):
         for precision in PRECISIONS:
@@ -109,9 +114,8 @@ def find_witness(
     n = len(a[1])
     elements = [e for mass, force in (a, b) for e in (*(x for row in mass for x in row), *force)]
     keys = _independent(ring, elements)
-    try:
-        function = compile_elements(elements, keys, "balls")
-    except OutsideRingError:
+    function = _compiled(elements, keys)
+    if function is None:
         return None
     half = n * n + n
     for state in sample_states(keys):
@@ -121,8 +125,19 @@ def find_witness(
                 first, second = (_accelerations(part, n) for part in (flat[:half], flat[half:]))
                 found = None if first is None or second is None else _first_difference(first, second)
                 if found is not None:
-                    return _witness(state, f"the acceleration of {_name(eom, found)}", first[found], second[found])
+                    return _witness(
+                        state, f"the acceleration of {_name(eom, found)}", first[found], second[found]
+                    )
     return None
+
+
+def _compiled(elements: Sequence[Element], keys: Sequence[tuple[Any, ...]]) -> Callable[..., tuple] | None:
+    """The elements as a function of balls, its constants as tight as the highest precision needs them."""
+    try:
+        with working_precision(PRECISIONS[-1]):
+            return compile_elements(elements, keys, "balls")
+    except OutsideRingError:
+        return None
 
 
 def _name(eom: EquationsOfMotion, index: int) -> str:
@@ -131,17 +146,8 @@ def _name(eom: EquationsOfMotion, index: int) -> str:
 
 
 def _independent(ring: Ring, elements: Sequence[Element]) -> list[tuple[Any, ...]]:
-    """Keys of all independent generators that the elements depend on, angles' insides included."""
-    found: set[int] = set()
-    waiting = {i for e in elements for i in e.generators()}
-    while waiting:
-        i = waiting.pop()
-        found.add(i)
-        definition = ring.definitions.get(i)
-        if definition is not None:
-            inner = {j for argument in definition.arguments for j in argument.generators()} | set(definition.contains)
-            waiting |= inner - found
-    return [ring.keys[i] for i in sorted(found) if i not in ring.definitions]
+    """Keys of all independent generators that the elements depend on, π aside."""
+    return [key for key in map(ring.keys.__getitem__, ring.independent(elements)) if key != ("symbol", pi)]
 
 
 def _first_difference(a: Sequence[Any], b: Sequence[Any]) -> int | None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from engdyn import shapes
 from engdyn.plots.pen import Pen, direction, left_of
-from engdyn.plots.symbols import arc_label, arc_points, trace
+from engdyn.plots.symbols import arc_points, trace
 
 __all__: list[str] = []
 
@@ -94,4 +94,7 @@ def _(shape: shapes.GravityArrow, pen: Pen) -> None:
 @trace.register
 def _(shape: shapes.MomentArrow, pen: Pen) -> None:
     _turn(shape, pen, shape.start, shape.end, 2.4)
-    arc_label(shape, pen, 5.0, shape.role)
+    # Outside the middle of the arc or outside one of its ends, whichever is free.
+    angles = np.array([(shape.start + shape.end) / 2, shape.end, shape.start])
+    center, *points = pen.view.project(np.vstack([shape.center, arc_points(shape, angles)]))
+    pen.text_at([(point, direction(point - center)) for point in points], shape.label, shape.role, 5.0)

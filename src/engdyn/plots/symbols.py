@@ -13,7 +13,7 @@ from engdyn.errors import EngdynError
 from engdyn.plots.pen import LEVELS, Pen, direction, left_of
 from engdyn.plots.projection import arc, box_faces
 
-__all__ = ["arc_label", "arc_points", "trace"]
+__all__ = ["arc_points", "trace"]
 
 
 @singledispatch
@@ -153,7 +153,7 @@ def _(shape: shapes.Damper, pen: Pen) -> None:
     _beside(shape, pen, 0.5 * width / pen.unit + 4.0)
 
 
-def arc_label(shape, pen: Pen, clearance: float, role: str) -> None:
+def _beside_arc(shape, pen: Pen, clearance: float, role: str) -> None:
     """Write the label of an arc outside its middle."""
     middle = arc_points(shape, np.array([(shape.start + shape.end) / 2]))
     center, middle = pen.view.project([shape.center])[0], pen.view.project(middle)[0]
@@ -166,7 +166,7 @@ def _(shape: shapes.TorsionalSpring, pen: Pen) -> None:
     radii = shape.radius * np.linspace(0.3, 1.0, len(angles))
     unit = arc((0.0,) * len(shape.center), 1.0, angles, shape.x_axis, shape.y_axis)
     pen.line(np.array(shape.center) + radii[:, None] * unit, shape.role, 1.6, level=ABOVE_BODIES)
-    arc_label(shape, pen, 5.0, "parameter")
+    _beside_arc(shape, pen, 5.0, "parameter")
 
 
 @trace.register
@@ -175,7 +175,7 @@ def _(shape: shapes.TorsionalDamper, pen: Pen) -> None:
     unit_center = (0.0,) * len(shape.center)
     length = shape.radius * abs(shape.end - shape.start)
     if length < 3.0 * pen.unit:
-        arc_label(shape, pen, 4.0, "parameter")
+        _beside_arc(shape, pen, 4.0, "parameter")
         return
     for part, weight in zip(_dashpot(length / width), (1.8, 1.8, 2.6, 1.8), strict=True):
         # Enough points that the straight symbol follows the arc.
@@ -186,7 +186,7 @@ def _(shape: shapes.TorsionalDamper, pen: Pen) -> None:
         )
         radii = shape.radius + 0.5 * width * across
         pen.line(np.array(shape.center) + radii[:, None] * unit, shape.role, weight, level=ABOVE_BODIES)
-    arc_label(shape, pen, 0.5 * width / pen.unit + 4.0, "parameter")
+    _beside_arc(shape, pen, 0.5 * width / pen.unit + 4.0, "parameter")
 
 
 @trace.register

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from math import pi
 
-import numpy as np
 import sympy as sm
 
-from engdyn.analysis.equilibrium import equilibria
-from engdyn.course.bank.ch04_systems import desk_lamp, holding_magnet
+from engdyn.course.bank.ch04_lamp import LAMP, LAMP_EQUATION, LAMP_ROOTS, LAMP_STIFFNESS
+from engdyn.course.bank.ch04_magnet import MAGNET, MAGNET_CURRENT, MAGNET_EQUATION, MAGNET_ROOTS
 from engdyn.course.case import Case, Setup
 from engdyn.course.judging_choices import Choice
-from engdyn.course.judging_equations import Equations
 from engdyn.course.judging_expressions import Expression
 from engdyn.course.judging_numbers import Number
 from engdyn.course.judging_sets import RootSet
@@ -169,7 +167,7 @@ CRANE_ANGLE = Number(
             "The force accelerates the trolley and the container together, not the trolley alone.",
         ),
         (f"-atan({DRIVE}/(m*g))", "The force accelerates the trolley as well, not only the container."),
-        (f"-{DRIVE}/((M_t + m)*g)", "The tangent was taken for the angle: that is right for small angles only."),
+        (f"-{DRIVE}/((M_t + m)*g)", "The tangent was taken for the angle (right for small angles only), or digits were lost: keep four."),
         (
             f"-asin({DRIVE}/((M_t + m)*g))",
             "Weight and inertia force are the two legs of the right triangle, so their ratio is a tangent, not a sine.",
@@ -283,4 +281,20 @@ PITCH = Expression(
         ),
     ],
     remark="z follows from one sag and this angle; no simultaneous equations were needed.",
+)
+
+EXERCISES = (
+    Exercise("4.3", ("S03",), "How far does the governor open?", "4.3", 10, 2, GOVERNOR, GOVERNOR_COSINE),
+    Exercise("4.3b", ("S03",), "When does the governor begin to open?", "4.3", 5, 2, GOVERNOR, GOVERNOR_SPEED),
+    Exercise("4.3c", ("S03",), "All steady angles at your speed", "4.3", 5, 1, GOVERNOR, GOVERNOR_ROOTS),
+    Exercise("4.7", ("S07",), "The container behind an accelerating trolley", "4.3", 10, 2, CRANE, CRANE_ANGLE),
+    Exercise("4.7b", ("S07",), "The same force, but with a brake", "4.4", 5, 2, CRANE, CRANE_STORY),
+    Exercise("4.13", ("S23",), "What the front tire carries", "4.2", 5, 1, HALF_CAR, TIRE_LOAD),
+    Exercise("4.13b", ("S23",), "Nose up or nose down?", "4.2", 15, 2, HALF_CAR, PITCH),
+    Exercise("4.14", (), "A desk lamp: your equation of motion", "4.1", 10, 2, LAMP, LAMP_EQUATION),
+    Exercise("4.14b", (), "A desk lamp: every angle at which it rests", "4.1", 10, 2, LAMP, LAMP_ROOTS),
+    Exercise("4.14c", (), "A desk lamp: the stiffness that holds it upright", "4.2", 10, 3, LAMP, LAMP_STIFFNESS),
+    Exercise("4.15", (), "A holding magnet: your equation of motion", "4.1", 5, 1, MAGNET, MAGNET_EQUATION),
+    Exercise("4.15b", (), "A holding magnet: where the armature can rest", "4.1", 10, 2, MAGNET, MAGNET_ROOTS),
+    Exercise("4.15c", (), "A holding magnet: the pull-in current", "4.2", 10, 3, MAGNET, MAGNET_CURRENT),
 )
