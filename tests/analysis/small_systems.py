@@ -15,6 +15,7 @@ import numpy as np
 import sympy as sm
 from scipy.optimize import brentq
 from scipy.optimize import root as scipy_root
+from sympy.core.function import AppliedUndef
 from sympy.physics.mechanics import dynamicsymbols
 
 import engdyn as ed
@@ -59,27 +60,43 @@ class Case:
         ]
         moving = {d for e in slope for d in sm.sympify(e).atoms(sm.Derivative)}
         known = {**dict.fromkeys(moving, sm.S.Zero), **self.motion}
-        numbers = {sm.Symbol(k): v for k, v in {**values, **inputs}.items()}
         plain = {q: sm.Symbol(f"q_{i}") for i, q in enumerate(self.coordinates)}
         expressions = []
         for e in slope:
             e = sm.sympify(e).xreplace(known).xreplace(plain)
-            e = e.xreplace({f: sm.Symbol(f.func.__name__) for f in e.atoms(sm.core.function.AppliedUndef)})
-            e = e.xreplace({s: sm.Symbol(s.name) for s in e.free_symbols})
-            expressions.append(e.xreplace(numbers))
+            e = e.xreplace({f: inputs.get(f.func.__name__, sm.S.Zero) for f in e.atoms(AppliedUndef)})
+            expressions.append(e.xreplace({s: values[s.name] for s in e.free_symbols if s.name in values}))
         function = sm.lambdify(list(plain.values()), expressions, "numpy")
         return lambda q: np.array([float(x) for x in function(*q)])
 
+    def inertia(self, values: dict[str, float]) -> Callable[[np.ndarray], np.ndarray]:
+        """det ∂²T/∂q̇², from the energies, as a function of q."""
+        rates = [q.diff(T) for q in self.coordinates]
+        plain = {q: sm.Symbol(f"q_{i}") for i, q in enumerate(self.coordinates)}
+        mass = sm.hessian(
+            self.kinetic.xreplace({r: sm.Symbol(f"u_{r}") for r in rates}),
+            [sm.Symbol(f"u_{r}") for r in rates],
+        )
+        determinant = mass.det().xreplace(plain)
+        known = {s: values[s.name] for s in determinant.free_symbols if s.name in values}
+        function = sm.lambdify(list(plain.values()), determinant.xreplace(known), "numpy")
+        return lambda q: float(function(*q))
+
     def brute_force(self, values: dict[str, float], starts: int = 13, **inputs: float) -> np.ndarray:
-        """All zeros that a dense grid of starts finds in the region, sorted, shape (number, n)."""
-        force = self.generalized_force(values, **inputs)
+        """All zeros that a dense grid of starts finds in the region, sorted, shape (number, n).
+
+        Where the mass matrix is singular the coordinates fail: a zero there is no equilibrium.
+        """
+        force, inertia = self.generalized_force(values, **inputs), self.inertia(values)
         region = [self.bounds.get(n, (-pi, pi)) for n in self.names]
         if len(region) == 1:
             found = _sign_changes(lambda x: force([x])[0], *region[0])
         else:
             grids = [np.linspace(low, high, starts) + 1e-3 * (high - low) for low, high in region]
             found = [_polished(force, np.array(start)) for start in itertools.product(*grids)]
-        return distinct([x for x in found if x is not None], region)
+        typical = inertia([0.1234] * len(region))
+        regular = [x for x in found if x is not None and abs(inertia(x)) > 1e-9 * typical]
+        return distinct(regular, region)
 
 
 def _sign_changes(function: Callable[[float], float], low: float, high: float) -> list[np.ndarray]:

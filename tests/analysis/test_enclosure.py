@@ -30,12 +30,12 @@ def load(backend: str) -> SimpleNamespace:
     copies = {}
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ENGDYN_BACKEND", backend)
-        for name in ("engdyn.algebra.balls", "engdyn.analysis.enclosure"):
+        for name in ("engdyn.algebra.balls", "engdyn.analysis.interval_newton", "engdyn.analysis.enclosure"):
             spec = importlib.util.find_spec(name)
             copies[name] = importlib.util.module_from_spec(spec)
             patch.setitem(sys.modules, name, copies[name])
             spec.loader.exec_module(copies[name])
-    balls, enclosure = copies.values()
+    balls, _, enclosure = copies.values()
     names = {**balls.NAMESPACE, "ball": balls.ball, "module": enclosure}
     return SimpleNamespace(**names, enclose=enclosure.enclose_roots, backend=balls.BACKEND)
 

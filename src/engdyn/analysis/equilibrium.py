@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from engdyn.algebra.balls import ball, is_finite, lower, upper
+from engdyn.algebra.balls import ball, contains_zero, is_finite, lower, upper
 from engdyn.algebra.codegen import compile_elements
 from engdyn.algebra.ring import Element
 from engdyn.analysis.enclosure import enclose_roots
@@ -19,7 +19,7 @@ from engdyn.analysis.results import Equilibrium, EquilibriumSet
 from engdyn.analysis.steady import SteadyProblem, Unknown
 from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
-from engdyn.modeling.numbers import mass_and_force
+from engdyn.modeling.numbers import input_values, mass_and_force, parameter_values
 
 __all__ = ["Equilibrium", "EquilibriumSet", "equilibria"]
 
@@ -193,7 +193,7 @@ def _complete(
         if any(not _inside(solution[name], bounds[name]) for name in solution if name in bounds):
             continue
         equilibrium = _equilibrium(problem, {name: _middle(b) for name, b in solution.items()})
-        if equilibrium is not None:
+        if not _is_singular(problem, solution, equilibrium):
             found.append(equilibrium)
     return sorted(found, key=lambda e: tuple(np.round(e.q, 9)))
 
@@ -207,8 +207,34 @@ def _inside(b: Any, bounds: tuple[float, float]) -> bool:
     return not is_finite(b) or not (upper(b) < bounds[0] or lower(b) > bounds[1])
 
 
-def _equilibrium(problem: SteadyProblem, solution: Mapping[str, float]) -> Equilibrium | None:
-    """The equilibrium of a solution, None where the mass matrix is singular (a false root)."""
+def _is_singular(problem: SteadyProblem, solution: Mapping[str, Any], at: Equilibrium) -> bool:
+    """Whether det M may be zero: the coordinates fail there, and a zero of the equations means nothing."""
+    eom = problem.eom
+    cache = eom.__dict__.setdefault("_compiled", {})
+    if "mass on balls" not in cache:
+        cache["mass on balls"] = compile_elements(
+            [e for row in eom.mass for e in row], eom.arguments, "balls"
+        )
+    known = [*at.speeds, *parameter_values(eom, at.values), *input_values(eom, at.inputs, at.values), 0.0]
+    q = [solution.get(name, ball(float(x))) for name, x in zip(problem.names, at.q, strict=True)]
+    flat = [ball(entry) for entry in cache["mass on balls"](*q, *(ball(float(x)) for x in known))]
+    n = len(at.speeds)
+    return contains_zero(_determinant([flat[i * n : (i + 1) * n] for i in range(n)]))
+
+
+def _determinant(matrix: Sequence[Sequence[Any]]) -> Any:
+    """Laplace expansion: division-free, and the matrices are small."""
+    if not matrix:
+        return ball(1.0)
+    total = ball(0.0)
+    for j, entry in enumerate(matrix[0]):
+        minor = _determinant([[*row[:j], *row[j + 1 :]] for row in matrix[1:]])
+        total = total + entry * minor if j % 2 == 0 else total - entry * minor
+    return total
+
+
+def _equilibrium(problem: SteadyProblem, solution: Mapping[str, float]) -> Equilibrium:
+    """The equilibrium of a solution."""
     eom, names = problem.eom, problem.names
     q = np.array([solution.get(name, 0.0) for name in names])
     owners = [u.expr.func.__name__ if u.is_Derivative else u.func.__name__ for u in eom.speeds]
@@ -220,8 +246,5 @@ def _equilibrium(problem: SteadyProblem, solution: Mapping[str, float]) -> Equil
     }
     values = {p.name: float(problem.values[p.name]) for p in eom.parameters} | dict(problem.values)
     mass, force = mass_and_force(eom, q, speeds, values, inputs)
-    scale = np.prod(np.linalg.norm(mass, axis=1)) or 1.0
-    if abs(np.linalg.det(mass)) < 1e-12 * scale:
-        return None
     residual = float(np.max(np.abs(mass @ udot - force), initial=0.0))
     return Equilibrium(q, speeds, udot, inputs, values, residual, tuple(names))

@@ -11,11 +11,11 @@ import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
 from engdyn.course.case import Case
+from engdyn.course.equation_hints import explain, residuals
 from engdyn.course.formula import FormulaError
 from engdyn.course.sameness import TERMS, cost
 from engdyn.course.verdict import Verdict, not_yet, right
-from engdyn.modeling.differences import Difference
-from engdyn.modeling.equality import Proof, prove_equal
+from engdyn.modeling.equality import prove_equal
 from engdyn.modeling.equations import EquationsOfMotion
 
 __all__ = ["Equations"]
@@ -61,7 +61,7 @@ class Equations:
         for wrong, hint in self.mistakes(case).items():
             if prove_equal(given, self._model(wrong, case)):
                 return not_yet(hint)
-        return not_yet(in_words(self._clearest(proof, given, case), case))
+        return not_yet(explain(given, self._model(self.solution(case), case), proof, case))
 
     def _read(self, answer: Any, case: Case) -> tuple[sm.Expr, ...]:
         """Residuals from equations of motion, one equation or a list of them."""
@@ -86,30 +86,12 @@ class Equations:
             if sum(map(cost, equations)) > 4 * TERMS:
                 raise FormulaError("These equations are too large to be checked. Bring them into a shorter form.")
             in_place = [e.xreplace(_drives(case)) for e in equations]
+            _check_accelerations(in_place, case)
             model = EquationsOfMotion.from_residuals(in_place, [c.symbol for c in case.system.coordinates])
             if len(self._models) > 50:
                 self._models.clear()
             self._models[key] = model
         return self._models[key]
-
-    def _clearest(self, proof: Proof, given: EquationsOfMotion, case: Case) -> Sequence[Difference]:
-        """The differences, taken after scaling a single equation by its inertia if they are fewer then."""
-        if len(case.system.coordinates) != 1:
-            return proof.differences
-        truth = self._model(self.solution(case), case)
-        scale = truth.mass_matrix[0] / given.mass_matrix[0]
-        scaled = (sm.Mul(scale, residuals(given)[0]),)
-        if cost(scaled[0]) > TERMS:
-            return proof.differences
-        other = prove_equal(self._model(scaled, case), truth).differences
-        return other if other and len(other) < len(proof.differences) else proof.differences
-
-
-def residuals(eom: EquationsOfMotion) -> tuple[sm.Expr, ...]:
-    """M u̇ − f of equations of motion, one expression per row."""
-    t = dynamicsymbols._t
-    udot = sm.Matrix([u.diff(t) for u in eom.speeds])
-    return tuple(eom.mass_matrix * udot - eom.forcing)
 
 
 def _drives(case: Case) -> dict[sm.Expr, sm.Expr]:
@@ -128,38 +110,11 @@ def _counted(number: int) -> str:
     return "one equation" if number == 1 else f"{number} equations, one for each coordinate"
 
 
-def in_words(differences: Sequence[Difference], case: Case) -> str:
-    """What differs, in words that name the kind of a term but not the term that is missing."""
-    if not differences:
-        return "Your equations describe another motion: compare each term with the free bodies."
-    first = min(differences, key=lambda d: ("sign", "factor", "extra", "missing").index(d.kind))
-    where = f"Equation {first.equation}: " if len(case.system.coordinates) > 1 else ""
-    kind = _kind(first.term, case)
-    said = {
-        "missing": f"{kind} is missing or incomplete",
-        "extra": f"{kind} stands there that does not belong there",
-        "sign": f"{kind} has the wrong sign",
-        "factor": f"{kind} has a wrong constant factor",
-    }[first.kind]
-    others = len({(d.equation, d.kind, _kind(d.term, case)) for d in differences}) - 1
-    more = f" (After it, {others} more {'term differs' if others == 1 else 'terms differ'}.)" if others else ""
-    text = f"{where}{said}."
-    return text[:1].upper() + text[1:] + more
-
-
-def _kind(term: sm.Expr, case: Case) -> str:
-    """What a term is: inertia, centrifugal and Coriolis, damping, input, weight, stiffness."""
+def _check_accelerations(equations: Sequence[sm.Expr], case: Case) -> None:
     t = dynamicsymbols._t
-    rates = {d for d in term.atoms(sm.Derivative) if d.variable_count[0][1] == 1}
-    if any(d.variable_count[0][1] == 2 for d in term.atoms(sm.Derivative)):
-        return "an inertia term (with an acceleration)"
-    if rates:
-        zero = term.xreplace({d: sm.S.Zero for d in rates})
-        doubled = term.xreplace({d: 2 * d for d in rates})
-        quadratic = zero == 0 and sm.expand(doubled - 4 * term) == 0
-        return "a term with squares or products of rates" if quadratic else "a term with rates (a damper?)"
-    inputs = [i.name for i in case.system.inputs if term.has(i.symbol)]
-    if inputs:
-        return f"a term with the input {' and '.join(inputs)}"
-    names = sorted(s.name for s in term.free_symbols if s != t)
-    return "a weight term (with g)" if "g" in names else f"a static term (with {', '.join(names) or 'numbers only'})"
+    for coordinate in case.system.coordinates:
+        if not any(e.has(coordinate.symbol.diff(t, 2)) for e in equations):
+            raise FormulaError(
+                f"No equation contains the acceleration {coordinate.name}_dd. Give the equations of motion, not those of "
+                "the equilibrium."
+            )

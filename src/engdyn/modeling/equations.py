@@ -103,7 +103,7 @@ class EquationsOfMotion:
         solve_reactions: Callable[[], dict[sm.Symbol, sm.Expr]] | None = None,
     ) -> EquationsOfMotion:
         """Equations from ring elements, after a check that they are linear and every speed has inertia."""
-        _check_linear(state, [*(e for row in mass for e in row), *force])
+        _check_linear(state, [*(e for row in mass for e in row), *force, *state.rate_elements()])
         for j, u in enumerate(state.speeds):
             if all(row[j].is_zero() for row in mass):
                 raise EngdynError(

@@ -11,7 +11,7 @@ from sympy.physics.vector import Point, ReferenceFrame, Vector
 from engdyn.errors import EngdynError
 from engdyn.modeling.motion import measure_numbers
 
-__all__ = ["FreeBody"]
+__all__ = ["FreeBody", "arm_of", "load_vector"]
 
 Load = Force | Torque
 
@@ -84,3 +84,14 @@ class FreeBody:
 def load_vector(load: Load) -> Vector:
     """The vector of a force or a torque."""
     return load.force if isinstance(load, Force) else load.torque
+
+
+def arm_of(force: Force, body: FreeBody) -> Vector:
+    """Vector from the mass center of a body to the point where a force acts."""
+    try:
+        return force.point.pos_from(body.center)
+    except ValueError as error:
+        raise EngdynError(
+            f"the point {force.point} of a force on {body.name} is not placed relative to its mass center "
+            f"{body.center}: place it with locatenew or set_pos"
+        ) from error

@@ -8,19 +8,16 @@ motum corporum rigidorum determinandi* (1775).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import sympy as sm
 from sympy.physics.mechanics import Force
-from sympy.physics.vector import ReferenceFrame
+from sympy.physics.vector import ReferenceFrame, dynamicsymbols
 
-from engdyn.algebra.elimination import eliminate, primitive, solve
-from engdyn.algebra.readable import to_sympy, tree
-from engdyn.algebra.ring import Element
 from engdyn.errors import EngdynError
+from engdyn.modeling.balances import Balance, Balances
 from engdyn.modeling.equations import EquationsOfMotion
-from engdyn.modeling.free_body import FreeBody, load_vector
+from engdyn.modeling.free_body import FreeBody, arm_of, load_vector
 from engdyn.modeling.motion import (
     Motion,
     Triple,
@@ -172,34 +169,31 @@ def _prepare(
     moving: list[sm.Expr] = []
     loads: list[sm.Expr] = list(unknowns)
     for body in free_bodies:
-        paths[body.center] = path = path_of_point(body.center, frame)
-        vectors = [*path.steps, path.start._vel_dict[frame]]
-        frames = {f for v in (*vectors, *body.vectors()) for _, f in v.args}
-        if body.turns:
-            frames |= {
-                body.body.frame,
-                *(
-                    f
-                    for part in body.body.central_inertia.args
-                    for f in (part[1].args[0][1], part[2].args[0][1])
-                ),
-            }
-            vectors += spin_steps(body.body.frame, frame)
-            frames |= {f for v in vectors for _, f in v.args}
-        for load in (*body.applied, *body.reactions):
-            if isinstance(load, Force) and load.point != body.center:
-                vectors.append(arm_of(load, body))
-                frames |= {f for _, f in vectors[-1].args}
-        moving += measure_numbers(*vectors, *(step for f in frames for step in rotation_steps(frame, f)))
-        moving += measure_numbers(*(step for f in frames for step in rotation_steps(f, frame)))
-        spins = [s for f in frames for s in spin_steps(f, frame)]
-        moving += measure_numbers(
-            *spins, *(step for s in spins for _, f in s.args for step in rotation_steps(f, frame))
-        )
+        paths[body.center] = path_of_point(body.center, frame)
+        moving += _kinematic_scalars(body, paths[body.center], frame)
         loads += body.scalars()
-        moving += measure_numbers(body.body.central_inertia) if body.turns else []
     state = State(coordinates, [*moving, *loads], speeds, rates, moving=moving)
     return state, Motion(state, frame), paths
+
+
+def _kinematic_scalars(body: FreeBody, path: VectorPath, frame: ReferenceFrame) -> list[sm.Expr]:
+    """Everything that position, velocity, rotation and inertia of a body are made of."""
+    forces = [load for load in (*body.applied, *body.reactions) if isinstance(load, Force)]
+    vectors = [*path.steps, path.start._vel_dict[frame]]
+    vectors += [arm_of(load, body) for load in forces if load.point != body.center]
+    frames = {f for v in (*vectors, *body.vectors()) for _, f in v.args}
+    inertia = [body.body.central_inertia] if body.turns else []
+    if body.turns:
+        spins = spin_steps(body.body.frame, frame)
+        vectors += spins
+        frames |= {body.body.frame, *(f for v in spins for _, f in v.args)}
+        frames |= {unit.args[0][1] for part in inertia[0].args for unit in part[1:]}
+    for f in list(frames):  # frames in which these turn, in turn
+        spins = spin_steps(f, frame)
+        vectors += spins
+        frames |= {g for v in spins for _, g in v.args}
+    turns = [step for f in frames for a, b in ((frame, f), (f, frame)) for step in rotation_steps(a, b)]
+    return measure_numbers(*vectors, *inertia, *turns)
 
 
 def _balances(body: FreeBody, motion: Motion, paths: dict) -> list[Balance]:

@@ -45,6 +45,8 @@ def input_values(
 
     What is not given takes its default (a drive angle Omega*t, say) or is zero.
     """
+    if inputs is not None and not isinstance(inputs, Mapping):
+        raise EngdynError(f"inputs must map input names to numbers, not be a {type(inputs).__name__}")
     given = dict(inputs or {})
     known = {w.func.__name__: w for w in eom.inputs}
     for name in given:
@@ -64,7 +66,7 @@ def input_values(
 
 
 def _input_triple(name: str, value: Any) -> list[float]:
-    if isinstance(value, int | float | np.number):
+    if isinstance(value, int | float | np.number) or getattr(value, "ndim", None) == 0:
         return [_finite(value, f"input {name}"), 0.0, 0.0]
     try:
         parts = list(value)
@@ -93,12 +95,13 @@ def accelerations(
     t: float,
 ) -> np.ndarray:
     """Implementation of :meth:`EquationsOfMotion.accelerations`."""
-    q, u = _states(eom, q, u)
+    q, u, shape = _states(eom, q, u)
     n, m = len(eom.coordinates), len(eom.speeds)
-    rest = [*parameter_values(eom, values), *input_values(eom, inputs, values, t), float(t)]
-    shape = np.broadcast_shapes(q.shape[:-1], u.shape[:-1])
+    t = _finite(t, "the time t")
+    rest = [*parameter_values(eom, values), *input_values(eom, inputs, values, t), t]
     columns = [q[..., i] for i in range(n)] + [u[..., i] for i in range(m)]
-    flat = eom.compiled("numpy")(*columns, *rest)[: m * m + m]
+    with np.errstate(all="ignore"):  # what is not finite is an error below
+        flat = eom.compiled("numpy")(*columns, *rest)[: m * m + m]
     stacked = np.stack([np.broadcast_to(np.asarray(x, dtype=float), shape) for x in flat], axis=-1)
     mass, force = stacked[..., : m * m].reshape(*shape, m, m), stacked[..., m * m :]
     if not np.all(np.isfinite(stacked)):
@@ -109,12 +112,20 @@ def accelerations(
         found = np.linalg.solve(mass, force[..., None])[..., 0]
     except np.linalg.LinAlgError:
         found = np.full_like(force, np.nan)
-    if not np.all(np.isfinite(found)) or np.any(np.linalg.cond(mass) > 1e14):
+    if not np.all(np.isfinite(found)) or np.any(np.linalg.cond(_equilibrated(mass)) > 1e14):
         raise EngdynError(
-            "singular mass matrix at this state: some combination of coordinates has no inertia there (a coordinate "
-            "singularity, or a mass of zero); choose another state, other coordinates or masses"
+            "singular mass matrix at this state: some combination of coordinates has no inertia there (a "
+            "coordinate singularity, or a mass of zero); choose another state, other coordinates or masses"
         )
     return found
+
+
+def _equilibrated(matrices: np.ndarray) -> np.ndarray:
+    """Matrices with rows and columns scaled to 1: tons beside grams are not singular."""
+    for axis in (-1, -2):
+        largest = np.max(np.abs(matrices), axis=axis, keepdims=True)
+        matrices = matrices / np.where(largest > 0, largest, 1.0)
+    return matrices
 
 
 def mass_and_force(
@@ -127,7 +138,8 @@ def mass_and_force(
     return np.array(flat[: m * m], dtype=float).reshape(m, m), np.array(flat[m * m : m * m + m], dtype=float)
 
 
-def _states(eom: EquationsOfMotion, q: Any, u: Any) -> tuple[np.ndarray, np.ndarray]:
+def _states(eom: EquationsOfMotion, q: Any, u: Any) -> tuple[np.ndarray, np.ndarray, tuple[int, ...]]:
+    """q and u as arrays, and the shape in which their states are stacked."""
     try:
         q, u = np.asarray(q, dtype=float), np.asarray(u, dtype=float)
     except (TypeError, ValueError) as error:
@@ -137,7 +149,12 @@ def _states(eom: EquationsOfMotion, q: Any, u: Any) -> tuple[np.ndarray, np.ndar
             raise EngdynError(f"{name} has shape {array.shape}: its last axis must hold {size} values")
         if not np.all(np.isfinite(array)):
             raise EngdynError(f"{name} contains values that are not finite")
-    return q, u
+    try:
+        return q, u, np.broadcast_shapes(q.shape[:-1], u.shape[:-1])
+    except ValueError as error:
+        raise EngdynError(
+            f"q with shape {q.shape} and u with shape {u.shape} do not go together: stack equally many states"
+        ) from error
 
 
 def state_derivative(eom: EquationsOfMotion, values: Mapping[str, float]) -> Callable[..., np.ndarray]:
@@ -150,14 +167,25 @@ def state_derivative(eom: EquationsOfMotion, values: Mapping[str, float]) -> Cal
 
     def derivative(t: float, x: np.ndarray, inputs: Mapping[str, Any] | None = None) -> np.ndarray:
         now = rest if fixed and inputs is None else input_values(eom, inputs, values, t)
-        flat = compiled(*(float(c) for c in x), *parameters, *now, float(t))
-        mass = np.array(flat[: m * m]).reshape(m, m)
-        try:
-            udot = np.linalg.solve(mass, np.array(flat[m * m : m * m + m]))
-        except np.linalg.LinAlgError as error:
+        if len(x) != n + m:
             raise EngdynError(
-                f"singular mass matrix at t = {t:.5g} s, x = {np.asarray(x).tolist()}"
-            ) from error
-        return np.concatenate([flat[m * m + m : m * m + m + n], udot])
+                f"the state x holds {len(x)} values: it must hold {n} coordinates and {m} speeds"
+            )
+        try:
+            flat = compiled(*(float(c) for c in x), *parameters, *now, float(t))
+            mass = np.array(flat[: m * m], dtype=float).reshape(m, m)
+            udot = np.linalg.solve(mass, np.array(flat[m * m : m * m + m], dtype=float))
+        except np.linalg.LinAlgError as error:
+            raise EngdynError(f"singular mass matrix {_at(t, x)}") from error
+        except (ArithmeticError, TypeError, ValueError) as error:
+            raise EngdynError(f"the equations of motion have no finite value {_at(t, x)}: {error}") from error
+        found = np.concatenate([flat[m * m + m : m * m + m + n], udot])
+        if not np.isfinite(found).all():
+            raise EngdynError(f"the equations of motion have no finite value {_at(t, x)}")
+        return found
 
     return derivative
+
+
+def _at(t: float, x: Any) -> str:
+    return f"at t = {t:.5g} s, x = {np.asarray(x).tolist()}"
