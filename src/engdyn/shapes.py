@@ -17,19 +17,18 @@ from engdyn.errors import EngdynError
 
 # fmt: off
 __all__ = [
-    "ROLES", "AngleArrow", "Box", "CenterLine", "CenterOfMass", "CoordinateArrow", "Curve",
-    "Damper", "Dimension", "Disc", "ForceArrow", "GravityArrow", "Ground", "Label", "Link", "MomentArrow",
-    "Particle", "Pin", "Polygon", "Shape", "Spring", "Support", "TorsionalDamper", "TorsionalSpring", "Wheel",
+    "ROLES", "AngleArrow", "Box", "CenterLine", "CenterOfMass", "CoordinateArrow", "Curve", "Damper",
+    "Dimension", "Disc", "ForceArrow", "GravityArrow", "Ground", "Label", "Link", "MomentArrow", "Particle",
+    "Pin", "Polygon", "Shape", "Spring", "Support", "TorsionalDamper", "TorsionalSpring", "Wheel",
 ]
 
 Point = tuple[float, ...]
 Points = tuple[Point, ...]
 
-ROLES = (
-    "body", "link", "spring", "damper", "joint", "ground", "reference", "parameter", "coordinate", "input",
-)
+#: What a shape stands for; the style of a picture gives each role its color.
+ROLES = ("body", "link", "spring", "damper", "joint", "ground",
+         "reference", "parameter", "coordinate", "input")
 # fmt: on
-"""What a shape stands for; the style of a picture gives each role its color."""
 
 
 def _numbers(value, sizes: tuple[int, ...], owner: str) -> Point:
@@ -49,12 +48,12 @@ def _numbers(value, sizes: tuple[int, ...], owner: str) -> Point:
 
 @dataclass(frozen=True)
 class Shape:
-    """Common to all shapes: numbers are checked once, when the shape is made.
+    """Common to all shapes: points, numbers, texts and the role are checked once, when the shape is made.
 
     Raises
     ------
     EngdynError
-        A point without 2 or 3 coordinates, a number that is not finite, an unknown role.
+        What is wrong, with the name of the field.
     """
 
     def __post_init__(self) -> None:
@@ -88,9 +87,8 @@ class _Between(Shape):
 
 @dataclass(frozen=True)
 class _Around(Shape):
-    """A shape along the arc ``center + radius*(x_axis*cos + y_axis*sin)`` from angle ``start`` to ``end``.
-
-    The axes span its plane; a shortened ``y_axis`` shows a turn about an axis in the plane of the picture.
+    """A shape along the arc ``center + radius*(x_axis*cos + y_axis*sin)`` from angle ``start`` to ``end``;
+    the axes span its plane; a shortened ``y_axis`` shows a turn about an axis in the plane of the picture.
     """
 
     center: Point

@@ -9,11 +9,11 @@ from math import pi
 import numpy as np
 import pytest
 import sympy as sm
-from analysis import small_systems as small
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import engdyn as ed
+from analysis import small_systems as small
 
 #: System, and how many brute-force starts per coordinate find all of its equilibria.
 CASES = [

@@ -57,8 +57,8 @@ def test_unstable_poses_are_broken_and_unfilled_stable_ones_solid():
 def test_poses_are_labeled_by_what_differs():
     ax = ed.plots.equilibrium_poses(S07, S07.equilibria())
     assert sorted(text.get_text() for text in ax.texts) == [
-        "$\\theta$ = 0°\nstable",
-        "$\\theta$ = 180°\nunstable",
+        "θ = 0°\nstable",
+        "θ = 180°\nunstable",
     ]
 
 

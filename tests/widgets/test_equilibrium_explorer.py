@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import math
 import random
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,8 +14,8 @@ from hypothesis import strategies as st
 
 import engdyn as ed
 from engdyn.widgets import equilibrium_explorer as module
+from engdyn.widgets import explorer as frame
 from engdyn.widgets.equilibrium_explorer import find, follow, slider
-from engdyn.widgets.explorer import PATIENCE
 
 CRITICAL = math.sqrt((1.2 + 3.0) * 9.81 / (1.2 * 0.25))
 
@@ -83,24 +84,51 @@ def test_moving_along_the_diagram_does_not_follow_the_branches_again(followed):
     assert len(followed) == 2  # remembered
 
 
-def test_while_dragged_in_a_live_notebook_the_diagram_waits_for_rest(followed):
+class Loop:
+    """An event loop of which the test decides when time passes."""
+
+    def __init__(self):
+        self.waiting = []
+
+    def call_later(self, delay, function, *arguments):
+        assert delay > 0
+        call = SimpleNamespace(run=lambda: function(*arguments), cancel=lambda: self.waiting.remove(call))
+        self.waiting.append(call)
+        return call
+
+
+def test_while_dragged_in_a_live_notebook_the_diagram_waits_for_rest(followed, monkeypatch):
+    loop = Loop()
+    monkeypatch.setattr(frame, "_running_loop", lambda: loop)
     explorer = ed.widgets.equilibrium("S03", Omega=18.0)
-    mass = explorer._widgets["m"]
-
-    async def drag():
-        for m in (1.3, 1.4, 2.4):
-            mass.value = m
-            assert f"{mass.value:g}" in explorer._line.value
-            await asyncio.sleep(0.01)
-        assert len(followed) == 1
-        assert len(explorer.figure.axes[1].patches) == 1  # veiled
-        await asyncio.sleep(2 * PATIENCE)
-
-    asyncio.run(drag())
+    for m in (1.3, 1.4, 2.4):
+        explorer._widgets["m"].value = m
+        assert f"m = {m} kg" in explorer._line.value
+    assert len(followed) == 1
+    assert len(explorer.figure.axes[1].patches) == 1  # veiled
+    (call,) = loop.waiting
+    call.run()
     assert [values["m"] for _, values, *_ in followed] == [1.2, 2.4]
     assert not explorer.figure.axes[1].patches
     (diamond,) = (line for line in explorer.figure.axes[1].lines if line.get_marker() == "D")
     assert diamond.get_xdata()[0] == pytest.approx(math.sqrt((2.4 + 3.0) * 9.81 / (2.4 * 0.25)), abs=1e-6)
+
+
+def test_setting_from_code_never_waits(followed, monkeypatch):
+    loop = Loop()
+    monkeypatch.setattr(frame, "_running_loop", lambda: loop)
+    explorer = ed.widgets.equilibrium("S03", Omega=18.0)
+    explorer.set(m=2.4)
+    assert len(followed) == 2
+    assert not loop.waiting
+
+
+def test_a_live_kernel_is_told_from_a_script():
+    async def inside():
+        return frame._running_loop() is asyncio.get_running_loop()
+
+    assert asyncio.run(inside())
+    assert frame._running_loop() is None
 
 
 def test_the_diagram_moves_with_the_other_parameters(explorer):
@@ -165,6 +193,21 @@ def test_an_own_system_joins_the_list():
     assert "1 equilibrium: theta = 0 (marginal)" in explorer.text
     explorer.set(system="S07")
     assert "Gantry crane" in explorer.text
+    explorer.set(system=own.key)
+    assert "Inverted pendulum" in explorer.text
+    again = ed.widgets.equilibrium("S07")
+    again.set(system=own)
+    assert again.state["system"] == own.key
+
+
+def test_a_worked_example_may_be_chosen_too():
+    explorer = ed.widgets.equilibrium("W10")
+    assert explorer.text.startswith(
+        "Equilibria. Simple pendulum, l = 0.8 m: 2 equilibria: theta = 0 (marginal)"
+    )
+    explorer.set(system="S03")
+    explorer.set(system="W10", l=1.2)
+    assert "l = 1.2 m" in explorer.text
 
 
 @pytest.mark.parametrize(

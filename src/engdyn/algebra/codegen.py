@@ -46,6 +46,9 @@ FUNCTIONS: dict[Any, str] = {
     sm.atan: "atan",
     sm.atan2: "atan2",
 }
+#: Terms that are added up in one expression.
+LONGEST_SUM = 200
+
 MATH = {name: getattr(math, name) for name in {"sin", "cos", *FUNCTIONS.values()}} | {"pi": math.pi}
 
 
@@ -145,7 +148,10 @@ class _Writer:
     def _number(self, node: Node) -> str:
         value: Fraction = node[1]
         if not self._balls:
-            return f"({float(value)!r})"
+            try:
+                return f"({float(value)!r})"
+            except OverflowError as error:
+                raise EngdynError("a coefficient is too large for a floating-point number") from error
         if node not in self._temporary:
             name = self._temporary[node] = f"k{len(self.constants)}"
             self.constants.append(f"{name} = rational({value.numerator}, {value.denominator})")
@@ -157,14 +163,23 @@ class _Writer:
             return self._names[key]
         if key == ("symbol", sm.pi):
             return "pi"
+        if key == ("call", sm.E):
+            return "exp(1.0)"
         raise OutsideRingError(f"{key[1]} has no numerical value here: give it one")
 
     def _sum(self, node: Node) -> str:
-        return "(" + " + ".join(self.text(part) for part in node[1]) + ")"
+        parts = [self.text(part) for part in node[1]]
+        while len(parts) > LONGEST_SUM:  # Python's compiler gives up on very long expressions
+            name = f"t{len(self.lines)}"
+            self.lines.append(f"{name} = {' + '.join(parts[:LONGEST_SUM])}")
+            parts = [name, *parts[LONGEST_SUM:]]
+        return "(" + " + ".join(parts) + ")"
 
     def _product(self, node: Node) -> str:
         above = [p for p in node[1] if not (p[0] == "power" and p[2] < 0)]
-        below = [("power", p[1], -p[2]) if p[2] != -1 else p[1] for p in node[1] if p[0] == "power" and p[2] < 0]
+        below = [
+            ("power", p[1], -p[2]) if p[2] != -1 else p[1] for p in node[1] if p[0] == "power" and p[2] < 0
+        ]
         text = "*".join(self.text(part) for part in above) or "1.0"
         return f"({text}/({'*'.join(self.text(p) for p in below)}))" if below else f"({text})"
 

@@ -10,7 +10,7 @@ from engdyn.errors import EngdynError
 if TYPE_CHECKING:
     from engdyn.algebra.ring import Ring
 
-__all__ = ["Element", "add_angles"]
+__all__ = ["Element", "add_angles", "without_common_sines"]
 
 
 class Element:
@@ -142,3 +142,31 @@ class Element:
 def add_angles(a: tuple[Element, Element], b: tuple[Element, Element]) -> tuple[Element, Element]:
     """Cosine and sine of a sum of two angles, each given as (cosine, sine)."""
     return a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]
+
+
+def without_common_sines(ring: Ring, polynomials: list[Any]) -> list[Any]:
+    """Polynomials divided by the sines that all of them contain, if only as sin² written 1 − cos².
+
+    Common factors of polynomials are found by their greatest common divisor, these are not.
+    """
+    ps = ring.polynomials
+    used = [i for p in polynomials[:1] for i, degree in enumerate(ps.degrees(p)) if degree > 0]
+    bases = {ring.keys[i][1:] for i in used if ring.keys[i][0] in ("sine", "cosine")}
+    for base in sorted(bases, key=str):
+        while True:
+            divided = [_over_sine(ring, p, base) for p in polynomials]
+            if any(p is None for p in divided):
+                break
+            polynomials = divided
+    return polynomials
+
+
+def _over_sine(ring: Ring, p: Any, base: tuple[Any, ...]) -> Any | None:
+    """p/s where it is a polynomial: from p = a s + b it is a + b s/(1 − c²)."""
+    ps, index = ring.polynomials, ring.index["sine", *base]
+    sine, cosine = ps.gens[index], ps.gens[ring.index["cosine", *base]]
+    a, circle = ps.derivative(p, index), ps.one - cosine * cosine
+    b = p - a * sine
+    if ps.is_zero(b):
+        return a
+    return a + ps.quotient(b, circle) * sine if ps.is_zero(ps.remainder(b, circle)) else None

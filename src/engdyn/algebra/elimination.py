@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from random import Random
 
-from engdyn.algebra.ring import Element, Ring
+from engdyn.algebra.element import Element, without_common_sines
+from engdyn.algebra.ring import Ring
 
 __all__ = [
     "Elimination",
@@ -100,10 +101,16 @@ def primitive(row: Row) -> Row:
         if not entry.is_zero():
             common = entry.numerator if ps.is_zero(common) else ps.gcd(common, entry.numerator)
             if ps.is_constant(common):
-                return row
+                break
     if ps.is_zero(common):
         return row
-    return [Element(ring, ps.quotient(a.numerator, common)) for a in row]
+    numerators = [entry.numerator for entry in row]
+    if not ps.is_constant(common):
+        numerators = [ps.quotient(p, common) for p in numerators]
+    occupied = [i for i, p in enumerate(numerators) if not ps.is_zero(p)]
+    for i, p in zip(occupied, without_common_sines(ring, [numerators[i] for i in occupied]), strict=True):
+        numerators[i] = p
+    return [Element(ring, p) for p in numerators]
 
 
 def solve(rows: Sequence[Row], unknowns: int) -> list[Element] | None:

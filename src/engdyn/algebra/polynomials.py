@@ -61,7 +61,10 @@ class FlintPolynomials:
 
     def terms(self, p: Polynomial) -> list[tuple[Exponents, Fraction]]:
         """Exponents and coefficient of every term."""
-        return [(tuple(map(int, e)), Fraction(int(c.p), int(c.q))) for e, c in zip(p.monoms(), p.coeffs(), strict=True)]
+        return [
+            (tuple(map(int, e)), Fraction(int(c.p), int(c.q)))
+            for e, c in zip(p.monoms(), p.coeffs(), strict=True)
+        ]
 
     def is_zero(self, p: Polynomial) -> bool:
         """Whether `p` is the zero polynomial."""

@@ -19,7 +19,8 @@ from typing import Any
 
 import sympy as sm
 
-from engdyn.algebra.ring import Element, Ring
+from engdyn.algebra.element import Element, without_common_sines
+from engdyn.algebra.ring import Ring
 
 __all__ = ["ONE", "ZERO", "make_product", "make_sum", "to_sympy", "tree"]
 
@@ -29,14 +30,19 @@ ONE: Node = ("number", Fraction(1))
 
 #: Polynomials with more terms than this are not factored: it would take longer than it helps.
 FACTOR_LIMIT = 150
+#: Products of more sines and cosines than this are not written as sums of angles, for the same reason.
+DEGREE_LIMIT = 12
 
 
 def tree(element: Element) -> Node:
     """The readable tree of a ring element."""
-    above = _grouped(element.ring, element.numerator)
+    ring = element.ring
     if element.denominator is None:
-        return above
-    return make_product([above, make_power(_factored(element.ring, element.denominator), -1)])
+        return _grouped(ring, element.numerator)
+    if element.is_zero():
+        return ZERO
+    above, below = without_common_sines(ring, [element.numerator, element.denominator])
+    return make_product([_grouped(ring, above), make_power(_factored(ring, below), -1)])
 
 
 def make_sum(nodes: Iterable[Node]) -> Node:
@@ -92,7 +98,9 @@ def _grouped(ring: Ring, p: Any) -> Node:
 
 def _monomial(ring: Ring, exponents: tuple[int, ...]) -> Node:
     """A product of generators; parameters first, sines and cosines last."""
-    return make_product(make_power(generator_node(ring, i), e) for i, e in reversed(list(enumerate(exponents))) if e)
+    return make_product(
+        make_power(generator_node(ring, i), e) for i, e in reversed(list(enumerate(exponents))) if e
+    )
 
 
 def generator_node(ring: Ring, index: int) -> Node:
@@ -170,14 +178,16 @@ def _sum_of_terms(ring: Ring, p: Any) -> Node:
     parts = []
     for rest, terms in groups.items():
         monomial = _monomial(ring, rest)
-        parts += [make_product([coefficient, monomial, trig]) for coefficient, trig in _trig(ring, angular, terms)]
+        parts += [
+            make_product([coefficient, monomial, trig]) for coefficient, trig in _trig(ring, angular, terms)
+        ]
     return make_sum(parts)
 
 
 def _trig(ring: Ring, angular: list[int], terms: dict) -> list[tuple[Node, Node]]:
     """A trigonometric polynomial as (coefficient, product) pairs, in the shorter of two forms."""
     plain = _plain_trig(ring, angular, terms)
-    if len(terms) < 2:
+    if len(terms) < 2 or max(map(sum, terms)) > DEGREE_LIMIT:
         return plain
     summed = _angle_sums(ring, angular, terms)
     return summed if len(summed) < len(plain) else plain
@@ -195,7 +205,9 @@ def _plain_trig(ring: Ring, angular: list[int], terms: dict) -> list[tuple[Node,
                 coefficient = terms.pop(lower)
                 terms.pop(trig)
                 sine = make_power(("sin", ((ring.keys[i][1], Fraction(1, ring.keys[i][2])),)), 2)
-                found.append((("number", coefficient), make_product([_trig_product(ring, angular, lower), sine])))
+                found.append(
+                    (("number", coefficient), make_product([_trig_product(ring, angular, lower), sine]))
+                )
     found += [(("number", c), _trig_product(ring, angular, trig)) for trig, c in terms.items()]
     return found
 

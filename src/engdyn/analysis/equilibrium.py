@@ -121,7 +121,8 @@ def _check_count(problem: SteadyProblem) -> None:
     rows, unknowns = len(problem.rows), [u.name for u in problem.unknowns]
     if rows == len(unknowns):
         return
-    counted = f"{rows} equations for the {len(unknowns)} unknowns {', '.join(unknowns) or '(none)'}"
+    counted = f"{rows} equation{'s' * (rows != 1)} for {len(unknowns)} unknown{'s' * (len(unknowns) != 1)}"
+    counted += f" ({', '.join(unknowns)})" if unknowns else ""
     if rows < len(unknowns):
         raise EngdynError(f"{counted}: prescribe a rate or an acceleration, or name fewer free inputs")
     raise EngdynError(f"{counted}: name an input in free that holds the prescribed motion, or prescribe less")
@@ -199,7 +200,8 @@ def _complete(
 
 
 def _middle(b: Any) -> float:
-    return 0.5 * (lower(b) + upper(b))
+    """The middle of an enclosure; zero where it holds zero, so that rounding is not shown."""
+    return 0.0 if contains_zero(b) and is_finite(b) else 0.5 * (lower(b) + upper(b))
 
 
 def _inside(b: Any, bounds: tuple[float, float]) -> bool:

@@ -7,7 +7,7 @@ Course section 5.3.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,22 +15,17 @@ import numpy as np
 import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
-from engdyn.algebra.readable import to_sympy, tree
 from engdyn.analysis.equilibrium import Equilibrium
-from engdyn.analysis.small_motion import (
-    BLOCKS,
-    assemble,
-    block_shapes,
-    compiled_blocks,
-    motion_keys,
-    small_motion,
-    unpacked,
-)
+from engdyn.analysis.small_motion import assemble, compiled_blocks, unpacked
+from engdyn.analysis.symbolic import symbolic_matrices
 from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.numbers import input_values, mass_and_force, parameter_values
 
 __all__ = ["LinearSystem", "eigenvalues", "linearize", "sorted_eigenvalues"]
+
+MOMENTS = (0.1234, 1.3579, 7.7531)
+"""Times [s] at which coefficients are compared with those at t = 0."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -50,6 +45,9 @@ class LinearSystem:
     eom : EquationsOfMotion
     at : Equilibrium or mapping
         Where the equations were linearized.
+    changing_inputs : tuple of str
+        Inputs whose matrices depend on time (a force in a fixed direction, seen from turning coordinates);
+        numeric input matrices hold their values at t = 0.
     """
 
     mass: Any
@@ -61,6 +59,7 @@ class LinearSystem:
     inputs: tuple[str, ...]
     eom: EquationsOfMotion
     at: Any
+    changing_inputs: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"LinearSystem({', '.join(self.coordinates)}; about {self.at!r})"
@@ -119,7 +118,7 @@ def linearize(
     state = _state_at(eom, at)
     given = inputs if inputs is not None else (at.inputs if isinstance(at, Equilibrium) else {})
     if symbolic:
-        matrices = _symbolic(eom, state, given)
+        matrices = symbolic_matrices(eom, state, given)
     else:
         if values is None:
             if not isinstance(at, Equilibrium):
@@ -127,18 +126,23 @@ def linearize(
             values = at.values
         matrices = _numeric(eom, state, values, given)
         at = _as_equilibrium(eom, state, values, given)
+    *matrices, changing = matrices
     names = tuple(q.func.__name__ for q in eom.coordinates)
-    return LinearSystem(*matrices, names, tuple(w.func.__name__ for w in eom.inputs), eom, at)
+    return LinearSystem(*matrices, names, tuple(w.func.__name__ for w in eom.inputs), eom, at, changing)
 
 
 def _state_at(eom: EquationsOfMotion, at: Any) -> list[Any]:
     """q, u and u̇ in one list."""
     n, m = len(eom.coordinates), len(eom.speeds)
+    names = [q.func.__name__ for q in eom.coordinates]
     if isinstance(at, Equilibrium):
+        if list(at.names) != names:
+            raise EngdynError(
+                f"at has the coordinates {', '.join(at.names)}, the equations {', '.join(names)}"
+            )
         return [*at.q, *at.speeds, *at.accelerations]
     if not isinstance(at, Mapping):
         raise EngdynError(f"at is {at!r}: give an Equilibrium, or a mapping of coordinate names to values")
-    names = [q.func.__name__ for q in eom.coordinates]
     given = {(k if isinstance(k, str) else k.func.__name__): v for k, v in at.items()}
     unknown = [k for k in given if k not in names]
     if unknown:
@@ -163,53 +167,54 @@ def _as_equilibrium(
 def _numeric(
     eom: EquationsOfMotion, state: list[Any], values: Mapping[str, float], given: Mapping[str, Any]
 ) -> tuple:
-    n, m = len(eom.coordinates), len(eom.speeds)
+    """Matrices as arrays, at t = 0, and the inputs whose matrices change in time."""
+    split = len(eom.coordinates) + len(eom.speeds)
     try:
-        q, u, udot = state[:n], state[n : n + m], [float(x) for x in state[n + m :]]
-        moved = [float(x) for x in (*q, *u)]
+        moved, udot = [float(x) for x in state[:split]], [float(x) for x in state[split:]]
     except (TypeError, ValueError) as error:
         raise EngdynError(f"at holds {state}: give numbers, or ask for symbolic=True") from error
-    rest = [*parameter_values(eom, values), *input_values(eom, given, values), 0.0]
-    flat = np.array(compiled_blocks(eom, "math")(*moved, *rest, *udot), dtype=float)
-    blocks = unpacked(eom, flat)
-    if not np.all(np.isfinite(flat)):
-        raise EngdynError(
-            "the linearized equations are not finite there: a root or a quotient has no derivative"
-        )
-    state_matrix = assemble(blocks)
-    force = (-blocks["B0"], -blocks["B1"], -blocks["B2"])
-    return blocks["M"], blocks["C"], blocks["K"], tuple(b + 0.0 for b in force), state_matrix
+    parameters = parameter_values(eom, values)
+
+    def blocks_at(t: float) -> dict[str, np.ndarray]:
+        rest = [*parameters, *input_values(eom, given, values, t), t]
+        try:
+            flat = np.array(compiled_blocks(eom, "math")(*moved, *rest, *udot), dtype=float)
+        except (ArithmeticError, ValueError):  # of Python's own mathematical functions
+            flat = np.array([np.nan])
+        if not np.all(np.isfinite(flat)):
+            raise EngdynError(
+                "the linearized equations are not finite there: a root or a quotient has no derivative"
+            )
+        return unpacked(eom, flat)
+
+    blocks = blocks_at(0.0)
+    changing = _changing_inputs(eom, blocks, blocks_at) if _has_time(eom) else ()
+    force = tuple(-blocks[b] + 0.0 for b in ("B0", "B1", "B2"))
+    return blocks["M"], blocks["C"], blocks["K"], force, assemble(blocks), changing
 
 
-def _symbolic(eom: EquationsOfMotion, state: list[Any], given: Mapping[str, Any]) -> tuple:
-    t = dynamicsymbols._t
-    q_keys, u_keys, a_keys = motion_keys(eom)
-    replaced: dict[sm.Expr, sm.Expr] = {}
-    for key, value in zip([*q_keys, *u_keys, *a_keys], state, strict=True):
-        replaced[key[1] if key[2] == 0 else sm.Derivative(key[1], (t, key[2]))] = sm.sympify(value)
-    for w in eom.inputs:
-        triple = given.get(w.func.__name__, eom.defaults.get(w, 0))
-        triple = triple if isinstance(triple, Sequence) else (triple, 0, 0)
-        for k, value in enumerate(triple):
-            replaced[sm.Derivative(w, (t, k)) if k else w] = sm.sympify(value)
-    ordered = sorted(replaced, key=lambda e: -e.derivative_count if e.is_Derivative else 0)
+def _has_time(eom: EquationsOfMotion) -> bool:
+    """Whether time occurs, explicitly or through a prescribed motion."""
+    moving = any(sm.sympify(part).has(dynamicsymbols._t) for d in eom.defaults.values() for part in d)
+    return moving or ("symbol", dynamicsymbols._t) in eom.occurring
 
-    def matrix(name: str) -> sm.Matrix:
-        rows = small_motion(eom)[name]
-        shape = block_shapes(eom)[name]
-        entries = [to_sympy(tree(entry)) for row in rows for entry in row]
-        entries = [entry.xreplace({key: replaced[key] for key in ordered}) for entry in entries]
-        return sm.Matrix(*shape, [sm.factor_terms(entry) for entry in entries])
 
-    blocks = {name: matrix(name) for name in BLOCKS}
-    left = [e for block in blocks.values() for e in block if e.has(t, sm.Derivative)]
-    if left:
-        raise EngdynError(
-            f"linearized coefficients depend on time: {left[0]}; linearize about a steady motion"
-        )
-    inverse = blocks["M"].LUsolve(blocks["K"].row_join(blocks["C"]))
-    state_matrix = blocks["Gq"].row_join(blocks["G"]).col_join(-inverse)
-    return blocks["M"], blocks["C"], blocks["K"], tuple(-blocks[b] for b in ("B0", "B1", "B2")), state_matrix
+def _changing_inputs(
+    eom: EquationsOfMotion, start: Mapping[str, np.ndarray], blocks_at: Any
+) -> tuple[str, ...]:
+    """Inputs whose matrices change in time; refused where the others do."""
+    changing = set()
+    for t in MOMENTS:
+        for name, later in blocks_at(t).items():
+            moved = np.abs(later - start[name]) > 1e-9 * (np.abs(later) + np.abs(start[name]))
+            if moved.any() and not name.startswith("B"):
+                raise EngdynError(
+                    "the linearized coefficients depend on time: linearize about a steady motion, in "
+                    "coordinates in which nothing but the deviations changes"
+                )
+            if name.startswith("B"):
+                changing |= {w.func.__name__ for w, c in zip(eom.inputs, moved.any(axis=0), strict=True) if c}
+    return tuple(sorted(changing))
 
 
 def eigenvalues(linear: LinearSystem) -> np.ndarray:

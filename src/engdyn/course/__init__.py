@@ -1,4 +1,4 @@
-"""The exercises of the course: ``check`` an answer, see your own ``variant`` of the numbers, list ``exercises``."""
+"""The exercises of the course: ``check`` an answer, see your own ``variant``, list all ``exercises``."""
 
 from __future__ import annotations
 

@@ -60,7 +60,9 @@ class Case:
         """
         expr = self.notation.expression(formula)
         try:
-            return float(evaluate(expr, {p.symbol: real(self.values[p.name]) for p in self.system.parameters})[0])
+            return float(
+                evaluate(expr, {p.symbol: real(self.values[p.name]) for p in self.system.parameters})[0]
+            )
         except NoValueError as error:
             raise EngdynError(f"the formula {expr} has no value at these parameters: {error}") from error
 
@@ -74,7 +76,7 @@ class Question(Protocol):
 
     @property
     def kind(self) -> str:
-        """ "expression", "equations", "number", "set" or "choice"."""
+        """One of "expression", "equations", "number", "set", "choice"."""
 
     def solution(self, case: Case) -> Any:
         """A right answer, computed from the system."""

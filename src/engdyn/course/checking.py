@@ -51,7 +51,9 @@ def check(id: str, answer: Any, student: Any = None) -> Verdict:
     except EngdynError as error:
         verdict = not_yet(_sentence(error))
     except Exception as error:  # whatever an odd object does when it is looked at
-        verdict = not_yet(f"This answer cannot be read ({type(error).__name__}). Look again at what the exercise asks for.")
+        verdict = not_yet(
+            f"This answer cannot be read ({type(error).__name__}). Look again at what the exercise asks for."
+        )
     hint = verdict.hint if len(verdict.hint) <= HINT else f"{verdict.hint[: HINT - 3]}..."
     return replace(verdict, hint=hint, exercise=item.id)
 

@@ -11,7 +11,14 @@ from sympy.physics.vector import dynamicsymbols
 from engdyn.errors import EngdynError
 from engdyn.system import System
 
-__all__ = ["Dimension", "DimensionMismatch", "dimension_of", "dimension_of_unit", "system_dimensions", "unit_text"]
+__all__ = [
+    "Dimension",
+    "DimensionMismatch",
+    "dimension_of",
+    "dimension_of_unit",
+    "system_dimensions",
+    "unit_text",
+]
 
 #: Exponents of kg, m, s, A, K.
 Dimension = tuple[Fraction, ...]
@@ -55,7 +62,9 @@ def dimension_of_unit(unit: str) -> Dimension:
             continue
         name, _, power = word.partition("^")
         if name not in _DERIVED or (power and not power.lstrip("-").isdigit()):
-            raise EngdynError(f"the unit {unit!r} is not understood at {word!r}: write it with {', '.join(_DERIVED)}")
+            raise EngdynError(
+                f"the unit {unit!r} is not understood at {word!r}: write it with {', '.join(_DERIVED)}"
+            )
         total = [a + sign * int(power or 1) * b for a, b in zip(total, _DERIVED[name], strict=True)]
     return tuple(total)
 
@@ -95,11 +104,13 @@ def dimension_of(expr: sm.Expr, known: dict[sm.Expr, Dimension]) -> Dimension:
     if isinstance(expr, sm.Abs):
         return dimension_of(expr.args[0], known)
     parts = [dimension_of(a, known) for a in expr.args]
-    if isinstance(expr, sm.atan2) and parts[0] == parts[1] or isinstance(expr, sm.sign):
+    if (isinstance(expr, sm.atan2) and parts[0] == parts[1]) or isinstance(expr, sm.sign):
         return _NONE
     if any(part != _NONE for part in parts):
         name = "power" if isinstance(expr, sm.Pow) else type(expr).__name__
-        raise DimensionMismatch(f"the argument of {name} in {short(expr)} must be a pure number, but has a unit")
+        raise DimensionMismatch(
+            f"the argument of {name} in {short(expr)} must be a pure number, but has a unit"
+        )
     return _NONE
 
 
@@ -109,17 +120,27 @@ def _of_sum(expr: sm.Expr, known: dict[sm.Expr, Dimension]) -> Dimension:
     for term in others:
         found = dimension_of(term, known)
         if found != wanted:
-            raise DimensionMismatch(f"{short(first)} [{unit_text(wanted)}] and {short(term)} [{unit_text(found)}] are added")
+            raise DimensionMismatch(
+                f"{short(first)} [{unit_text(wanted)}] and {short(term)} [{unit_text(found)}] are added"
+            )
     return wanted
 
 
 def unit_text(dimension: Dimension) -> str:
     """A dimension in base units, such as kg m^2 s^-2; 1 for a pure number."""
-    parts = [f"{base}^{power}" if power != 1 else base for base, power in zip(_BASES, dimension, strict=True) if power]
+    parts = [
+        f"{base}^{power}" if power != 1 else base
+        for base, power in zip(_BASES, dimension, strict=True)
+        if power
+    ]
     return " ".join(parts) or "1"
 
 
 def short(expr: sm.Expr) -> str:
-    """An expression as text of at most 60 characters, functions of time without ``(t)``."""
-    text = str(expr).replace("(t)", "")
+    """An expression as text of at most 60 characters, with names such as theta_d for rates."""
+    named = {
+        node: sm.Symbol(f"{node.expr.func.__name__}_{'d' * int(node.variable_count[0][1])}")
+        for node in expr.atoms(sm.Derivative)
+    }
+    text = str(expr.xreplace(named)).replace("(t)", "")
     return text if len(text) <= 60 else f"{text[:57]}..."

@@ -6,13 +6,13 @@ has no real value of moderate size.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import mpmath
 import sympy as sm
 
-__all__ = ["BITS", "NoValueError", "evaluate", "real"]
+__all__ = ["BITS", "NoValueError", "evaluate", "real", "solve"]
 
 #: Working precision, and the largest binary exponent that any part may have.
 BITS, EXPONENT = 200, 1200
@@ -32,6 +32,20 @@ def real(value: Any) -> Any:
     if isinstance(value, sm.Float):
         return _numbers.mpf(value._mpf_)
     return _numbers.mpf(value)
+
+
+def solve(matrix: Sequence[Sequence[Any]], vector: Sequence[Any]) -> list[Any]:
+    """Solution of a small linear system in 200 bits.
+
+    Raises
+    ------
+    NoValueError
+        The matrix is singular.
+    """
+    try:
+        return list(_numbers.lu_solve(_numbers.matrix(matrix), _numbers.matrix(vector)))
+    except (ZeroDivisionError, ValueError) as error:
+        raise NoValueError("a singular matrix") from error
 
 
 def evaluate(expr: sm.Expr, point: Mapping[sm.Expr, Any]) -> tuple[Any, Any]:

@@ -47,7 +47,11 @@ READABLE = (
 LENGTH, TOKENS, DEPTH, EXPONENT = 2000, 600, 50, 20
 
 _GREEK = dict(
-    zip("αβγζθρφψωΩπ", "alpha beta gamma zeta theta rho phi psi omega Omega pi".split(), strict=True)
+    zip(
+        "αβγζθρφψωΩπ",
+        ["alpha", "beta", "gamma", "zeta", "theta", "rho", "phi", "psi", "omega", "Omega", "pi"],
+        strict=True,
+    )
 )
 _TOKEN = re.compile(
     r"(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)"
@@ -115,7 +119,9 @@ def _tokens(text: str) -> list[Token]:
             continue
         match = _TOKEN.match(text, position)
         if match is None:
-            raise FormulaError(f"At position {position + 1}: the sign {text[position]!r} has no meaning in a formula.")
+            raise FormulaError(
+                f"At position {position + 1}: the sign {text[position]!r} has no meaning in a formula."
+            )
         piece = match.group()
         found.append(Token(str(match.lastgroup), _GREEK.get(piece[0], piece[0]) + piece[1:], position + 1))
         position = match.end()
@@ -140,7 +146,9 @@ class _Parser:
         if token is not None:
             if token.kind == "sign" and token.text in "),":
                 raise self.error(token, f"the sign {token.text!r} has no partner")
-            raise self.error(token, f"an operator is missing before {token.text[:40]!r}; write products with *")
+            raise self.error(
+                token, f"an operator is missing before {token.text[:40]!r}; write products with *"
+            )
         return expr
 
     def peek(self) -> Token | None:
@@ -195,7 +203,9 @@ class _Parser:
         exponent = self.signed()
         self.depth -= 1
         if not exponent.is_Number or abs(exponent) > EXPONENT:
-            raise self.error(sign, f"an exponent must be a number between -{EXPONENT} and {EXPONENT}; for e^x write exp(x)")
+            raise self.error(
+                sign, f"an exponent must be a number between -{EXPONENT} and {EXPONENT}; for e^x write exp(x)"
+            )
         if base.is_zero and exponent < 0:
             raise self.error(sign, "this divides by zero")
         if base.is_Rational and (abs(base.p).bit_length() + base.q.bit_length()) * abs(exponent) > 2048:
@@ -228,7 +238,9 @@ class _Parser:
         called = following is not None and following.text == "("
         if token.text in self.table:
             if called:
-                raise self.error(following, f"{token.text} is a symbol, not a function; write products with *")
+                raise self.error(
+                    following, f"{token.text} is a symbol, not a function; write products with *"
+                )
             return self.table[token.text]
         if token.text in FUNCTIONS:
             if not called:
@@ -239,7 +251,9 @@ class _Parser:
         known = [*self.table, *FUNCTIONS, "pi"]
         near = difflib.get_close_matches(token.text[:40], known, n=1, cutoff=0.5)
         advice = f" Did you mean {near[0]}?" if near else ""
-        raise FormulaError(f"At position {token.position}: the name {token.text[:40]!r} means nothing here.{advice}")
+        raise FormulaError(
+            f"At position {token.position}: the name {token.text[:40]!r} means nothing here.{advice}"
+        )
 
     def call(self, token: Token) -> sm.Expr:
         function, count = FUNCTIONS[token.text]
@@ -250,7 +264,9 @@ class _Parser:
         if not self.take(")"):
             raise self.error(self.peek(), "a closing parenthesis is missing")
         if len(arguments) != count:
-            raise self.error(token, f"{token.text} takes {count} argument{'s' if count > 1 else ''}, not {len(arguments)}")
+            raise self.error(
+                token, f"{token.text} takes {count} argument{'s' if count > 1 else ''}, not {len(arguments)}"
+            )
         return self.made(token, function(*arguments))
 
     def made(self, token: Token, expr: Any) -> sm.Expr:

@@ -57,7 +57,9 @@ class Choice:
         if number == self.right_reason:
             return right(self.remark)
         if number is None:
-            return not_yet("Add the number of the reason, as in 'a1': a statement without its reason may be a guess.")
+            return not_yet(
+                "Add the number of the reason, as in 'a1': a statement without its reason may be a guess."
+            )
         return not_yet(self.reasons[number])
 
     def _read(self, answer: Any) -> tuple[str, int | None]:
@@ -66,8 +68,16 @@ class Choice:
         wanted = f"one of the letters {', '.join(letters)}"
         if numbers:
             wanted += f", followed by the number of a reason, {', '.join(map(str, numbers))}"
-        if isinstance(answer, list | tuple) and len(answer) == 2 and all(isinstance(a, str | int) for a in answer):
-            answer = "".join(a if isinstance(a, str) else f"{a:d}" for a in answer if not isinstance(a, int) or abs(a) < 100)
+        if (
+            isinstance(answer, list | tuple)
+            and len(answer) == 2
+            and all(isinstance(a, str | int) for a in answer)
+        ):
+            answer = "".join(
+                a if isinstance(a, str) else f"{a:d}"
+                for a in answer
+                if not isinstance(a, int) or abs(a) < 100
+            )
         if not isinstance(answer, str) or len(answer) > 20:
             raise FormulaError(f"Answer with text: {wanted}.")
         match = re.fullmatch(r"([a-z])(\d?)", re.sub(r"[\s().,]", "", answer).lower(), re.ASCII)

@@ -75,7 +75,9 @@ class Expression:
         if stray:
             wanted = "the parameters" + (f", {', '.join(self.of)}" if self.of else " alone")
             return not_yet(f"Your answer still contains {', '.join(stray)}. Express it by {wanted}.")
-        if any(self._same(given, other, case) for other in (truth, *map(case.notation.expression, self.also))):
+        if any(
+            self._same(given, other, case) for other in (truth, *map(case.notation.expression, self.also))
+        ):
             return right(self.remark)
         for wrong, hint in self.mistakes(case).items():
             if all(agree(x, y, case.points, ROUNDED, ENOUGH) for x, y in self._views(given, wrong, case)):

@@ -124,10 +124,21 @@ class RootSet:
 
     def _statement(self, given: list[float], truth: list[float], near: float, case: Case) -> str:
         """The strongest true thing to say of a list that no known mistake explains."""
-        if case.values != case.defaults and self._matches(given, list(self.solution(case.at(**case.defaults))), near):
-            return "These are the roots for the default parameters. Use your own: engdyn.course.variant gives them."
+        if case.values != case.defaults and self._matches(
+            given, list(self.solution(case.at(**case.defaults))), near
+        ):
+            return (
+                "These are the roots for the default parameters. Use your own: engdyn.course.variant "
+                "gives them."
+            )
         if self.unit == "rad" and self._matches([math.radians(x) for x in given], truth, near):
             return "These are degrees. Give the angles in radians, or as text with a unit, such as '30 deg'."
+        if not self.periodic and any(
+            self._matches([x * 10.0**n for x in given], truth, near) for n in (-6, -3, -2, 2, 3)
+        ):
+            return f"All are off by the same power of ten. Give them in {self.unit}, or as text with a unit."
+        if self._matches(given, truth, 20 * near):
+            return "The count is right and all are close, but more digits are needed."
         if self._matches([-x for x in given], truth, near):
             return "All signs are wrong: check the positive direction."
         if self._repeated(given, near):
@@ -146,22 +157,29 @@ class RootSet:
             return ""
         low, high = self.region(case)
         beyond = [x for x in given if not low - near <= x <= high + near]
-        return f"{_shown(beyond)} {'lies' if len(beyond) == 1 else 'lie'} outside the region asked for." if beyond else ""
+        return (
+            f"{_shown(beyond)} {'lies' if len(beyond) == 1 else 'lie'} outside the region asked for."
+            if beyond
+            else ""
+        )
 
     def _count(self, given: list[float], truth: list[float], near: float) -> str:
         good = [x for x in given if self._is_root(x, truth, near)]
         bad = [x for x in given if not self._is_root(x, truth, near)]
         plural = f"{self.noun}s"
         if good and not bad:
-            return f"Every {self.noun} that you give is right, but {len(truth) - len(good)} more exist. What was divided out?"
+            return f"Every {self.noun} that you give is right, but there are more. What was divided out?"
         if good and len(good) == len(truth):
             return f"All right {plural} are there, but {_shown(bad)} should not be: put it into the equation."
         if good:
             count = "as many as there are" if len(given) == len(truth) else "but their number is not right"
-            return f"{_shown(good)} {'is' if len(good) == 1 else 'are'} right, {_shown(bad)} not; you list {len(given)}, {count}."
+            return f"Right: {_shown(good)}. Wrong: {_shown(bad)}. You list {len(given)} {plural}, {count}."
         if len(given) == len(truth):
             return f"The number of {plural} is right, but none of the values. Put one into your equation."
-        return f"None of these {plural} is right, and there are {'more' if len(given) < len(truth) else 'fewer'}."
+        return (
+            f"None of these {plural} is right, and there are "
+            f"{'more' if len(given) < len(truth) else 'fewer'}."
+        )
 
 
 def _shown(numbers: list[float]) -> str:

@@ -10,12 +10,14 @@ from __future__ import annotations
 import difflib
 import numbers
 from collections.abc import Iterable, Iterator
+from math import inf
 from typing import Any
 
 import sympy as sm
 from sympy.core.function import AppliedUndef
 from sympy.physics.vector import dynamicsymbols
 
+from engdyn.course.evaluation import NoValueError, evaluate
 from engdyn.course.formula import READABLE, FormulaError, parse_formula
 from engdyn.system import System
 
@@ -66,14 +68,18 @@ class Notation:
             return self.expression(answer.item())
         if answer is None:
             raise FormulaError("Your answer is None: does a function lack its return?")
-        raise FormulaError(f"An answer of type {type(answer).__name__} is no formula. Give text or a sympy expression.")
+        raise FormulaError(
+            f"An answer of type {type(answer).__name__} is no formula. Give text or a sympy expression."
+        )
 
     def residual(self, answer: Any) -> sm.Expr:
-        """Left side minus right side of an equation: text with or without ``=``, ``sympy.Eq``, an expression."""
+        """Left minus right side of an equation: text with or without ``=``, ``Eq``, an expression."""
         if isinstance(answer, str) and "=" in answer:
             left, *right = answer.split("=")
             if len(right) != 1:
-                raise FormulaError("The text holds more than one sign =. Write one equation, with = or == 0 left out.")
+                raise FormulaError(
+                    "The text holds more than one sign =. Write one equation, with = or == 0 left out."
+                )
             return parse_formula(left, self.table) - parse_formula(right[0], self.table)
         if isinstance(answer, sm.Equality):
             return self._translate(answer.lhs) - self._translate(answer.rhs)
@@ -132,7 +138,9 @@ def written_name(node: sm.Expr) -> str:
         return node.name
     if isinstance(node, AppliedUndef):
         if len(node.args) != 1 or not isinstance(node.args[0], sm.Symbol):
-            raise FormulaError(f"The function {node.func.__name__[:40]} is unknown here; use symbols of the exercise.")
+            raise FormulaError(
+                f"The function {node.func.__name__[:40]} is unknown here; use symbols of the exercise."
+            )
         return node.func.__name__
     inner = node.expr
     if not isinstance(inner, AppliedUndef) or len(node.variable_count) != 1:
@@ -155,6 +163,14 @@ def nodes(expr: sm.Basic) -> Iterator[sm.Basic]:
             waiting += [(argument, depth + 1) for argument in node.args]
 
 
+def _value(number: sm.Expr) -> float:
+    """Value of an exponent without symbols, infinite where it has none of moderate size."""
+    try:
+        return float(evaluate(number, {})[0])
+    except NoValueError:
+        return inf
+
+
 def _refuse_unreadable(node: sm.Basic) -> None:
     if isinstance(node, sm.Rational):
         if abs(node.p).bit_length() + abs(node.q).bit_length() > BITS:
@@ -163,10 +179,12 @@ def _refuse_unreadable(node: sm.Basic) -> None:
         if not node.is_finite or abs(node._mpf_[2] + node._mpf_[3]) > BITS:
             raise FormulaError("This expression contains a number that is too large or not finite.")
     elif isinstance(node, sm.Pow):
-        if node.exp.is_number and node.exp.is_Number and abs(node.exp) > POWER:
+        if not node.exp.free_symbols and abs(_value(node.exp)) > POWER:
             raise FormulaError(f"This expression contains a power beyond {POWER}.")
     elif node is sm.I:
-        raise FormulaError("This expression contains the imaginary unit. Make your symbols with sympy.symbols.")
+        raise FormulaError(
+            "This expression contains the imaginary unit. Make your symbols with sympy.symbols."
+        )
     elif not (is_symbol(node) or isinstance(node, (sm.Add, sm.Mul, *READABLE)) or node in (sm.pi, sm.E)):
         if node in (sm.nan, sm.oo, -sm.oo, sm.zoo):
             raise FormulaError("This expression has no finite value: something is divided by zero.")

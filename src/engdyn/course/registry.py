@@ -65,7 +65,7 @@ class Exercise:
 
     @property
     def kind(self) -> str:
-        """ "expression", "equations", "number", "set" or "choice"."""
+        """One of "expression", "equations", "number", "set", "choice"."""
         return self.question.kind
 
     @property
@@ -118,7 +118,9 @@ def _ordered(found: Iterable[Exercise]) -> dict[str, Exercise]:
     by_id: dict[str, Exercise] = {}
     for item in found:
         if not _ID.fullmatch(item.id) or item.id in by_id:
-            raise EngdynError(f"the exercise id {item.id!r} is malformed or used twice: write 4.3, 4.3b, 4.3c")
+            raise EngdynError(
+                f"the exercise id {item.id!r} is malformed or used twice: write 4.3, 4.3b, 4.3c"
+            )
         by_id[item.id] = item
     return {name: by_id[name] for name in sorted(by_id, key=_order)}
 

@@ -54,7 +54,10 @@ class Points:
         t = dynamicsymbols._t
         self._parameters = {p.symbol: p.name for p in system.parameters}
         self._moving = [
-            ([moving.symbol.diff(t, order) if order else moving.symbol for order in (0, 1, 2)], _bounds(moving))
+            (
+                [moving.symbol.diff(t, order) if order else moving.symbol for order in (0, 1, 2)],
+                _bounds(moving),
+            )
             for moving in (*system.coordinates, *system.inputs)
         ]
         self._drawn: list[dict[sm.Expr, Any]] = []
@@ -90,7 +93,8 @@ class Points:
     def _near(self) -> dict[str, float]:
         uniform = self._source.uniform
         return {
-            name: value * uniform(0.8, 1.2) if value else uniform(0.1, 1.0) for name, value in self.values.items()
+            name: value * uniform(0.8, 1.2) if value else uniform(0.1, 1.0)
+            for name, value in self.values.items()
         }
 
 
@@ -129,17 +133,17 @@ def _rounded(expr: sm.Expr) -> bool:
 
 def agree(a: sm.Expr, b: sm.Expr, points: Points, tolerance: float, enough: int = ENOUGH) -> bool:
     """Whether two expressions have the same values, within a share of their scale, at enough points."""
-    found = 0
-    for x, y, scale in value_pairs(a, b, islice(points, ATTEMPTS)):
+    for found, (x, y, scale) in enumerate(value_pairs(a, b, islice(points, ATTEMPTS)), start=1):
         if abs(x - y) > tolerance * scale:
             return False
-        found += 1
         if found == enough:
             return True
     return False
 
 
-def value_pairs(a: sm.Expr, b: sm.Expr, points: Iterable[Mapping[sm.Expr, Any]]) -> Iterator[tuple[Any, Any, Any]]:
+def value_pairs(
+    a: sm.Expr, b: sm.Expr, points: Iterable[Mapping[sm.Expr, Any]]
+) -> Iterator[tuple[Any, Any, Any]]:
     """Values of two expressions and their common scale, at the points where `b` has one.
 
     A point at which `b` has a value and `a` has not yields a difference as large as the scale.
@@ -198,7 +202,9 @@ def _angle_terms(angle: sm.Expr, known: dict) -> float:
     whole = lcm(*(factor.denominator for _, factor in multiples))
     if whole > MULTIPLE or any(abs(factor) * whole > MULTIPLE for _, factor in multiples):
         return 1e9
-    return _product(2.0 * (float(abs(factor) * whole) + 1) * sum(_cost(base, known)) for base, factor in multiples)
+    return _product(
+        2.0 * (float(abs(factor) * whole) + 1) * sum(_cost(base, known)) for base, factor in multiples
+    )
 
 
 def _product(numbers: Iterable[float]) -> float:

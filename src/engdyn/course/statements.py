@@ -10,7 +10,13 @@ from typing import Any
 import sympy as sm
 
 from engdyn.course.case import Case
-from engdyn.course.dimensions import DimensionMismatch, dimension_of, dimension_of_unit, system_dimensions, unit_text
+from engdyn.course.dimensions import (
+    DimensionMismatch,
+    dimension_of,
+    dimension_of_unit,
+    system_dimensions,
+    unit_text,
+)
 from engdyn.course.evaluation import NoValueError, evaluate, real
 from engdyn.course.sameness import ROUNDED, agree, value_pairs
 
@@ -20,7 +26,9 @@ __all__ = ["ratio_in_words", "strongest_statement"]
 ENOUGH = 8
 
 
-def strongest_statement(given: sm.Expr, truth: sm.Expr, unit: str, case: Case, up_to_constant: bool = False) -> str:
+def strongest_statement(
+    given: sm.Expr, truth: sm.Expr, unit: str, case: Case, up_to_constant: bool = False
+) -> str:
     """A hint for a wrong expression that no known mistake explains.
 
     Parameters
@@ -61,7 +69,10 @@ def _units(given: sm.Expr, unit: str, case: Case) -> str:
     wanted = dimension_of_unit(unit)
     if found == wanted or given.is_zero:
         return ""
-    return f"Check the units: your expression has the unit {unit_text(found)}, the answer has {unit_text(wanted)}."
+    return (
+        f"Check the units: your expression has the unit {unit_text(found)}, the answer has "
+        f"{unit_text(wanted)}."
+    )
 
 
 def _no_value(given: sm.Expr, truth: sm.Expr, case: Case) -> str:
@@ -74,7 +85,10 @@ def _no_value(given: sm.Expr, truth: sm.Expr, case: Case) -> str:
             evaluate(given, point)
             return ""
         except NoValueError as error:
-            return f"Your expression has no real value at parameters such as yours: {error}. Check the signs inside."
+            return (
+                f"Your expression has no real value at parameters such as yours: {error}. Check the signs "
+                f"inside."
+            )
     return ""
 
 
@@ -106,7 +120,10 @@ def ratio_in_words(ratio: float, noun: str) -> str:
         return f"Your {noun} is too {cause[0]}{sign}: {cause[1]}"
     if simple and abs(size / float(simple) - 1) < ROUNDED:
         return f"Your {noun} is right but for a constant factor{sign}: check the numbers in front."
-    return f"Your {noun} is right but for a constant factor{sign}, which is no simple fraction: is a number put in?"
+    return (
+        f"Your {noun} is right but for a constant factor{sign}, which is no simple fraction: is a number "
+        f"put in?"
+    )
 
 
 def _either_way(size: float, factor: float) -> bool:
@@ -125,11 +142,17 @@ def _power_of_truth(given: sm.Expr, truth: sm.Expr, case: Case) -> str:
 
 
 def _at_these_numbers(given: sm.Expr, truth: sm.Expr, case: Case) -> str:
-    """Numbers put in for symbols: right at one point of the parameters only."""
+    """Numbers put in for symbols: right at one set of parameters, and symbols are lacking."""
+    names = case.notation.symbols_in
+    if set(names(truth)) <= set(names(given)):
+        return ""
     moving = [{**point, **case.points.here()} for point in case.points.take(4)]
     pairs = list(value_pairs(given, truth, moving))
-    if pairs and all(abs(x - y) <= 1e-4 * scale for x, y, scale in pairs):
-        return "Your expression has the right value at your numbers, but not in general. Keep every symbol; put in no numbers."
+    if pairs and all(abs(x - y) <= 1e-3 * scale for x, y, scale in pairs):
+        return (
+            "Your expression has the right value at your numbers, but not in general. Keep every symbol; "
+            "put in no numbers."
+        )
     return ""
 
 
@@ -179,11 +202,20 @@ def _size(given: sm.Expr, truth: sm.Expr, case: Case) -> str:
     ratios = _ratios(given, truth, case)
     if not ratios:
         return "This is not the right expression."
+    if all(abs(r - 1) < 0.01 for r in ratios):
+        return (
+            "Your expression is close to the right one, but not equal to it. Was something small neglected?"
+        )
     if all(r < 0 for r in ratios):
         return "At parameters such as yours your expression has the wrong sign."
     if all(abs(r) > 1 for r in ratios) or all(abs(r) < 1 for r in ratios):
-        return f"At parameters such as yours the value of your expression is too {'large' if abs(ratios[0]) > 1 else 'small'}."
-    return "This is not the right expression: for some parameters its value is too large, for others too small."
+        return (
+            f"At parameters such as yours the value of your expression is too "
+            f"{'large' if abs(ratios[0]) > 1 else 'small'}."
+        )
+    return (
+        "This is not the right expression: for some parameters its value is too large, for others too small."
+    )
 
 
 def _ratios(given: sm.Expr, truth: sm.Expr, case: Case) -> list[Any]:

@@ -88,12 +88,16 @@ def draw_values(
     course = course_code() if course is None else course
     for attempt in range(ATTEMPTS):
         values = {
-            name: _draw(default, (course, exercise, student, name, str(attempt))) if name in varied else default
+            name: _draw(default, (course, exercise, student, name, str(attempt)))
+            if name in varied
+            else default
             for name, default in defaults.items()
         }
         if accepted(values):
             return values
-    raise EngdynError(f"exercise {exercise}: none of {ATTEMPTS} draws of its parameters is clear-cut; report this")
+    raise EngdynError(
+        f"exercise {exercise}: none of {ATTEMPTS} draws of its parameters is clear-cut; report this"
+    )
 
 
 def _draw(default: float, names: tuple[str, ...]) -> float:

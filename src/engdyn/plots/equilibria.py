@@ -15,7 +15,7 @@ from engdyn.plots.axes import MARKS, coordinate_axis, is_stable, legend_entry, s
 from engdyn.plots.drawing import Layer, draw_layers, drawing_axes, structure
 from engdyn.plots.look import new_axes, style
 from engdyn.plots.pen import direction
-from engdyn.plots.words import number, plain_verdict, pose, quantity, symbol, with_unit
+from engdyn.plots.words import number, plain_symbol, plain_verdict, pose, quantity, symbol, with_unit
 from engdyn.shapes import Label, Shape
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ def _names(system: System, equilibria: Sequence[Equilibrium], stable: Sequence[b
     differ = np.flatnonzero(np.ptp(q, axis=0) > 1e-9)[:2]
     chosen = [system.coordinates[i] for i in differ]
     rows = [
-        [f"{symbol(c)} = {_short(q[k, i], c.unit)}" for i, c in zip(differ, chosen, strict=True)]
+        [f"{plain_symbol(c)} = {_short(q[k, i], c.unit)}" for i, c in zip(differ, chosen, strict=True)]
         for k in range(len(q))
     ]
     return ["\n".join([*row, kind]) for row, kind in zip(rows, kinds, strict=True)]

@@ -8,8 +8,9 @@ from typing import Any
 
 import sympy as sm
 from sympy.physics.vector.printing import vlatex
+from sympy.printing.pretty.pretty_symbology import pretty_symbol
 
-__all__ = ["number", "plain_verdict", "pose", "quantity", "symbol", "with_unit"]
+__all__ = ["number", "plain_symbol", "plain_verdict", "pose", "quantity", "symbol", "with_unit"]
 
 
 def number(value: float) -> str:
@@ -51,6 +52,11 @@ def symbol(item: Any) -> str:
     if len(text) == 2 and text.isalpha():
         text = f"{text[0]}_{{{text[1]}}}"
     return f"${text}$"
+
+
+def plain_symbol(item: Any) -> str:
+    """Return the symbol as plain letters, for example ``θ``: quicker to typeset than mathtext."""
+    return pretty_symbol(item.name)
 
 
 def with_unit(label: str, unit: str) -> str:

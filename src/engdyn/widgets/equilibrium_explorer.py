@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 
 __all__ = ["EquilibriumExplorer", "Found", "equilibrium", "find", "follow", "slider"]
 
-INTERESTING = ("rad/s", "m/s", "N m/rad", "N/m", "rad", "m")
-"""Units of the parameter that is followed at first: speeds split equilibria, stiffnesses come next."""
+INTERESTING = ("rad/s", "m/s", "m/s^2", "N m/rad", "N/m", "rad", "m")
+"""Units of the parameter that is followed at first: what moves, then what is stiff, then what is long."""
 
 MANY = 6
 """So many equilibria are told one by one."""
@@ -90,20 +90,31 @@ class EquilibriumExplorer(Explorer):
     structural = ("system",)
 
     def __init__(self, system: str | int | System = "S07", **values: Any) -> None:
-        self._own = {system.key: system} if isinstance(system, System) else {}
+        self._own: dict[str, System] = {}
         self._systems: dict[str, System] = {}
         self._followed: dict[tuple, tuple[BranchSet | None, str]] = {}
-        super().__init__(system=system.key if isinstance(system, System) else _name(system), **values)
+        super().__init__(system=system, **values)
 
     def set(self, **values: Any) -> None:
-        if "system" in values and values["system"] not in self._own:
-            values["system"] = _name(values["system"])
+        if "system" in values:
+            values["system"] = self._named(values["system"])
         super().set(**values)
+
+    def _named(self, system: Any) -> str:
+        """Return the name of a system among the choices; one that is not of the catalogue joins them."""
+        if isinstance(system, str) and system in self._own:
+            return system
+        found = system if isinstance(system, System) else load(system)
+        if not isinstance(system, System) and found.number is not None:
+            return f"S{found.number:02d}"
+        self._own[found.key] = self._systems[found.key] = found
+        self._followed.clear()
+        return found.key
 
     def system(self, name: str) -> System:
         """Return the system behind a choice."""
         if name not in self._systems:
-            self._systems[name] = self._own[name] if name in self._own else load(name)
+            self._systems[name] = load(name)
         return self._systems[name]
 
     def controls(self, chosen: Mapping[str, Any]) -> Sequence[Control]:
@@ -238,14 +249,14 @@ def _catalogue() -> Any:
     return catalogue()
 
 
-def _name(system: Any) -> str:
-    """Return ``"S07"`` for whatever names that system of the catalogue."""
-    return f"S{load(system).number:02d}"
-
-
 def _interesting(system: System) -> str:
     """Return the parameter to follow at first."""
-    names = {unit: p.name for unit in INTERESTING for p in reversed(system.parameters) if p.unit == unit}
+    names = {
+        unit: p.name
+        for unit in INTERESTING
+        for p in reversed(system.parameters)
+        if p.unit == unit and p.name != "g"
+    }
     return next(iter(names.values()), system.parameters[0].name)
 
 

@@ -38,12 +38,20 @@ def desk_lamp() -> System:
         key="desk_lamp",
         title="Desk lamp with a spring",
         description=(
-            "The arm of a desk lamp turns about the hinge O. It carries the head, a particle of mass m, at the distance l; the "
-            "arm itself is light. A spring (stiffness k, free length L_0) joins the anchor A, at the height h above O, "
-            "to the eye B of the arm at the distance d from O. theta is the angle of the arm from the upward vertical, "
-            "counter-clockwise positive; c damps the hinge. Gravity acts downward; arm and post pass each other."
+            "The arm of a desk lamp turns about the hinge O. It carries the head, a particle of mass m, "
+            "at the distance l; the "
+            "arm itself is light. A spring (stiffness k, free length L_0) joins the anchor A, at the "
+            "height h above O, "
+            "to the eye B of the arm at the distance d from O. theta is the angle of the arm from the "
+            "upward vertical, "
+            "counter-clockwise positive; c damps the hinge. Gravity acts downward; arm and post pass each "
+            "other."
         ),
-        coordinates=(Coordinate(theta, "rad", "angle of the arm from the upward vertical, counter-clockwise", (-pi, pi)),),
+        coordinates=(
+            Coordinate(
+                theta, "rad", "angle of the arm from the upward vertical, counter-clockwise", (-pi, pi)
+            ),
+        ),
         parameters=parameters,
         kinetic_energy=m * l**2 * rate**2 / 2,
         potential_energy=m * g * l * sm.cos(theta) + k * (length - L_0) ** 2 / 2,
@@ -94,7 +102,9 @@ def lamp_stiffness(system: System) -> sm.Expr:
     angle = sm.Dummy("angle", real=True)
     slope = residual.xreplace({theta: angle}).diff(angle).xreplace({angle: sm.S.Zero})
     # the roots that remain are those of the square (h - d)**2: taking the factor out makes them abs(h - d)
-    slope = slope.replace(lambda e: isinstance(e, sm.Pow) and e.base.is_Add, lambda e: sm.factor(e.base) ** e.exp)
+    slope = slope.replace(
+        lambda e: isinstance(e, sm.Pow) and e.base.is_Add, lambda e: sm.factor(e.base) ** e.exp
+    )
     slope = sm.expand(slope)
     return sm.factor_terms(-slope.coeff(k, 0) / slope.coeff(k, 1))
 
@@ -108,7 +118,8 @@ LAMP_EQUATION = Equations(
     wrong=[
         (
             [f"{_MOTION} + {_GRAVITY} + {_SPRING}"],
-            "The weight has the wrong sign: theta counts from the upward vertical, where the weight overturns the arm.",
+            "The weight has the wrong sign: theta counts from the upward vertical, where the weight "
+            "overturns the arm.",
         ),
         (
             [f"{_MOTION} - {_GRAVITY} - {_SPRING}"],
@@ -116,19 +127,23 @@ LAMP_EQUATION = Equations(
         ),
         (
             [f"{_MOTION} - {_GRAVITY} + k*h*d*sin(theta)"],
-            "The free length L_0 is left out: the force is the stiffness times the extension, not times the whole length.",
+            "The free length L_0 is left out: the force is the stiffness times the extension, not times "
+            "the whole length.",
         ),
         (
             [f"{_MOTION} - {_GRAVITY} + k*d*sin(theta)*(sqrt(h**2 + d**2 - 2*h*d*cos(theta)) - L_0)"],
-            "The spring is taken as vertical. Its moment about O is the force times the distance of O from the line AB.",
+            "The spring is taken as vertical. Its moment about O is the force times the distance of O "
+            "from the line AB.",
         ),
         (
             [f"{_MOTION} - {_GRAVITY} - k*h*d*sin(theta)*(1 - L_0/sqrt(h**2 + d**2 + 2*h*d*cos(theta)))"],
-            "The cosine rule has the wrong sign: at theta = 0 eye and anchor are nearest, a distance h - d apart.",
+            "The cosine rule has the wrong sign: at theta = 0 eye and anchor are nearest, a distance h - "
+            "d apart.",
         ),
         (
             [f"{_MOTION} - {_GRAVITY} + 2*({_SPRING})"],
-            "The spring moment is twice too large: its energy is one half of stiffness times extension squared.",
+            "The spring moment is twice too large: its energy is one half of stiffness times extension "
+            "squared.",
         ),
         (
             [f"m*l**2*theta_dd - c*theta_d - {_GRAVITY} + {_SPRING}"],
@@ -145,15 +160,18 @@ LAMP_ROOTS = RootSet(
     wrong=[
         (
             lambda case, roots: [x for x in roots if abs(sin(x)) > 1e-6],
-            "The upright and the hanging position are lost: they are the roots of sin(theta), which was divided out.",
+            "The upright and the hanging position are lost: they are the roots of sin(theta), which was "
+            "divided out.",
         ),
         (
             lambda case, roots: [x for x in roots if abs(sin(x)) < 1e-6],
-            "Only the factor sin(theta) is solved. The other factor fixes the length of the spring, and with it the angle.",
+            "Only the factor sin(theta) is solved. The other factor fixes the length of the spring, and "
+            "with it the angle.",
         ),
         (
             lambda case, roots: [x for x in roots if x > -1e-6],
-            "The mirror image is lost: the lamp can lean to the right as well, and acos returns one angle only.",
+            "The mirror image is lost: the lamp can lean to the right as well, and acos returns one angle "
+            "only.",
         ),
         (
             lambda case, roots: [x for x in roots if abs(x) < 3.0],
@@ -169,7 +187,10 @@ LAMP_ROOTS = RootSet(
         ),
     ],
     region=lambda case: (-pi, pi),
-    remark="The length of the spring is the same in both tilted positions; mind that nothing is said of stability yet.",
+    remark=(
+        "The length of the spring is the same in both tilted positions; mind that nothing is said of "
+        "stability yet."
+    ),
 )
 
 LAMP_STIFFNESS = Expression(
@@ -178,15 +199,18 @@ LAMP_STIFFNESS = Expression(
     wrong=[
         (
             "m*g*l/(h*d)",
-            "That is the stiffness for a spring without free length, which would balance the lamp at every angle.",
+            "That is the stiffness for a spring without free length, which would balance the lamp at "
+            "every angle.",
         ),
         (
             "m*g*l*(h + d)/(h*d*(h + d - L_0))",
-            "There the tilted positions merge with the hanging one. Take the upright one: how long is the spring then?",
+            "There the tilted positions merge with the hanging one. Take the upright one: how long is the "
+            "spring then?",
         ),
         (
             "m*g*l/(d*(h - d - L_0))",
-            "The lever of the spring is not d: near the upright position it is the distance of O from the line AB.",
+            "The lever of the spring is not d: near the upright position it is the distance of O from the "
+            "line AB.",
         ),
         ("m*g/(h - d - L_0)", "These are forces along the arm. Compare moments about O for a small angle."),
         (

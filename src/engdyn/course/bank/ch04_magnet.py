@@ -35,9 +35,12 @@ def holding_magnet() -> System:
         key="holding_magnet",
         title="Holding magnet and its armature",
         description=(
-            "An armature of mass m slides without friction on a horizontal guide. A spring k, relaxed at x = 0, and a damper c "
-            "join it to the frame on its left. A magnet on its right, across an air gap that is d wide at x = 0, "
-            "attracts it with the force C*i^2/gap^2, where i is the coil current. x is the travel of the armature "
+            "An armature of mass m slides without friction on a horizontal guide. A spring k, relaxed at "
+            "x = 0, and a damper c "
+            "join it to the frame on its left. A magnet on its right, across an air gap that is d wide at "
+            "x = 0, "
+            "attracts it with the force C*i^2/gap^2, where i is the coil current. x is the travel of the "
+            "armature "
             "towards the magnet. The guide is horizontal, so gravity plays no part."
         ),
         coordinates=(Coordinate(x, "m", "travel of the armature towards the magnet", (0.0, 0.01), "length"),),
@@ -53,7 +56,7 @@ def _draw_magnet(q: list[float], values: dict[str, float]) -> list:
     """Wall with spring and damper, armature on its guide, magnet."""
     (x,), d = q, values["d"]
     wall, width, height = -2.4 * d, 0.5 * d, 1.1 * d
-    face = x + 0.0  # right face of the armature; it starts at 0, the magnet's face is at d
+    face = x  # right face of the armature; the magnet's face stays at d
     left, middle = face - width, face - width / 2
     return [
         sh.Ground((wall, -0.7 * d), (wall, 0.8 * d)),
@@ -89,7 +92,9 @@ def pull_in_current(system: System) -> sm.Expr:
     current, gap = names["i"], names["d"]
     row = sm.Poly(sm.numer(sm.together(residual.xreplace({system.coordinates[0].symbol: x}))), current)
     squared = sm.cancel(-row.nth(0) / row.nth(2))  # the current squared that holds the armature at x
-    turning = [place for place in sm.roots(sm.Poly(sm.numer(sm.together(squared.diff(x))), x)) if place != gap]
+    turning = [
+        place for place in sm.roots(sm.Poly(sm.numer(sm.together(squared.diff(x))), x)) if place != gap
+    ]
     return sm.sqrt(sm.cancel(squared.xreplace({x: turning[0]})))
 
 
@@ -106,10 +111,22 @@ _MOTION = "m*x_dd + c*x_d + k*x"
 MAGNET_EQUATION = Equations(
     wrong=[
         ([f"{_MOTION} + C*i**2/(d - x)**2"], "The magnet pushes: its force must act towards positive x."),
-        ([f"{_MOTION} - C*i**2/(d + x)**2"], "The gap opens: when x grows, the armature comes nearer to the magnet."),
-        ([f"{_MOTION} - C*i**2/d**2"], "The gap stays what it was: the force must grow as the armature comes nearer."),
-        ([f"{_MOTION} - C*i**2/x**2"], "x is the travel, not the gap: it is zero where the spring is relaxed."),
-        ([f"{_MOTION} - C*i**2/(d - x)"], "That is the energy of the magnet, or its force with one power of the gap lost."),
+        (
+            [f"{_MOTION} - C*i**2/(d + x)**2"],
+            "The gap opens: when x grows, the armature comes nearer to the magnet.",
+        ),
+        (
+            [f"{_MOTION} - C*i**2/d**2"],
+            "The gap stays what it was: the force must grow as the armature comes nearer.",
+        ),
+        (
+            [f"{_MOTION} - C*i**2/x**2"],
+            "x is the travel, not the gap: it is zero where the spring is relaxed.",
+        ),
+        (
+            [f"{_MOTION} - C*i**2/(d - x)"],
+            "That is the energy of the magnet, or its force with one power of the gap lost.",
+        ),
         ([f"{_MOTION} - C*i/(d - x)**2"], "The force grows with the square of the current."),
         (["m*x_dd - c*x_d + k*x - C*i**2/(d - x)**2"], "The damper feeds energy in: check its sign."),
         (["m*x_dd + c*x_d - k*x - C*i**2/(d - x)**2"], "The spring pushes the armature on: check its sign."),
@@ -124,7 +141,8 @@ MAGNET_ROOTS = RootSet(
     wrong=[
         (
             lambda case, roots: cubic_roots(case),
-            "One root lies beyond the magnet. It came in when the equation was multiplied by the gap squared.",
+            "One root lies beyond the magnet. It came in when the equation was multiplied by the gap "
+            "squared.",
         ),
         (
             lambda case, roots: [min(roots)],
@@ -148,7 +166,10 @@ MAGNET_ROOTS = RootSet(
         ),
     ],
     region=lambda case: (0.0, case.values["d"]),
-    remark="Of the two, the nearer one to the magnet is a position in which nobody will ever see the armature rest.",
+    remark=(
+        "Of the two, the nearer one to the magnet is a position in which nobody will ever see the "
+        "armature rest."
+    ),
 )
 
 MAGNET_CURRENT = Expression(
@@ -157,11 +178,13 @@ MAGNET_CURRENT = Expression(
     wrong=[
         (
             "sqrt(k*d**3/(8*C))",
-            "The armature was put halfway. The limit is where the two equilibria merge, not where the gap is halved.",
+            "The armature was put halfway. The limit is where the two equilibria merge, not where the gap "
+            "is halved.",
         ),
         (
             "sqrt(k*d**3/(27*C))",
-            "Travel and gap are mixed up in one factor: if the travel is a third of d, the gap is the rest of it.",
+            "Travel and gap are mixed up in one factor: if the travel is a third of d, the gap is the "
+            "rest of it.",
         ),
         (
             "sqrt(2*k*d**3/(27*C))",
@@ -171,7 +194,8 @@ MAGNET_CURRENT = Expression(
         ("sqrt(4*k*d**2/(27*C))", "A power of d was lost on the way: check the unit."),
         (
             "sqrt(k*d**3/C)",
-            "That current would hold the armature at x = d with the force of the open gap: the gap closes meanwhile.",
+            "That current would hold the armature at x = d with the force of the open gap: the gap closes "
+            "meanwhile.",
         ),
     ],
     remark="Beyond it the armature snaps to the magnet: two equilibria have met and vanished, a saddle-node.",
