@@ -26,7 +26,7 @@ def gantry_crane_equilibria() -> None:
 def flyball_governor_branches() -> None:
     """The pitchfork of the flyball governor over the spindle speed."""
     governor = ed.systems.load("flyball_governor")
-    branches = ed.continue_equilibria(governor.equations, governor.values(), "Omega", (0.0, 25.0), bounds=governor.bounds)
+    branches = governor.branches("Omega", (0.0, 25.0))
     figure = new_figure(9.0, 4.6)
     with style():
         left, right = figure.subplots(1, 2, width_ratios=(1, 1.6))

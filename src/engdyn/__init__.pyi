@@ -1,5 +1,5 @@
 from . import course, plots, systems, widgets
-from .analysis.branches import continue_equilibria
+from .analysis.branches import Branch, BranchPoint, BranchSet, continue_equilibria
 from .analysis.equilibrium import Equilibrium, EquilibriumSet, equilibria
 from .analysis.linear import LinearSystem, eigenvalues, linearize
 from .analysis.stability import Stability, stability
@@ -15,10 +15,14 @@ from .modeling.equality import Proof, prove_equal
 from .modeling.equations import EquationsOfMotion
 from .modeling.lagrange import lagrange
 from .modeling.newton import FreeBody, newton_euler
-from .system import Coordinate, Input, Parameter, System
+from .quantities import Coordinate, Input, Parameter
+from .system import System
 
 __version__: str
 __all__ = [
+    "Branch",
+    "BranchPoint",
+    "BranchSet",
     "Coordinate",
     "EngdynError",
     "EngdynWarning",

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -19,112 +19,15 @@ from engdyn.modeling.equality import Proof, prove_equal
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.lagrange import lagrange
 from engdyn.modeling.newton import FreeBody, newton_euler
-from engdyn.units import to_si
+from engdyn.quantities import Coordinate, Input, Parameter
 
 if TYPE_CHECKING:
     from sympy.physics.vector import ReferenceFrame
 
+    from engdyn.analysis.branches import BranchSet
     from engdyn.analysis.equilibrium import EquilibriumSet
 
-__all__ = ["Coordinate", "Input", "Parameter", "System"]
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """A constant of a system.
-
-    Parameters
-    ----------
-    symbol : str or sympy.Symbol
-        Name of the symbol, or the symbol itself.
-    unit : str
-        SI unit, "-" for none.
-    default : float
-        Default value [unit].
-    meaning : str
-        What it is, in words.
-    admissible : {"positive", "nonnegative", "any"}
-        Which values make sense.
-    """
-
-    symbol: Any
-    unit: str
-    default: float
-    meaning: str
-    admissible: str = "positive"
-
-    def __post_init__(self) -> None:
-        if isinstance(self.symbol, str):
-            assumptions = {"positive": {"positive": True}, "nonnegative": {"nonnegative": True}, "any": {"real": True}}
-            object.__setattr__(self, "symbol", sm.Symbol(self.symbol, **assumptions[self.admissible]))
-
-    @property
-    def name(self) -> str:
-        """Name of the symbol."""
-        return self.symbol.name
-
-    def check(self, value: Any) -> float:
-        """The value as an SI float, or a ParameterError that says what is wrong with it."""
-        number = to_si(value, self.unit, f"parameter {self.name} ({self.meaning})")
-        bad = (self.admissible == "positive" and number <= 0) or (self.admissible == "nonnegative" and number < 0)
-        if bad:
-            wanted = "greater than zero" if self.admissible == "positive" else "zero or greater"
-            raise ParameterError(f"parameter {self.name} ({self.meaning}) is {number:g} {self.unit}: it must be {wanted}")
-        return number
-
-
-@dataclass(frozen=True)
-class Coordinate:
-    """A generalized coordinate.
-
-    Parameters
-    ----------
-    symbol : dynamicsymbol
-    unit : str
-        "m" or "rad".
-    meaning : str
-        What it measures, with its positive sense.
-    bounds : (float, float), optional
-        Region in which equilibria are looked for; None for a coordinate that nothing depends on.
-    kind : {"angle", "length", "ignorable"}
-    """
-
-    symbol: sm.Expr
-    unit: str
-    meaning: str
-    bounds: tuple[float, float] | None = None
-    kind: str = "angle"
-
-    @property
-    def name(self) -> str:
-        """Name of the dynamicsymbol."""
-        return self.symbol.func.__name__
-
-
-@dataclass(frozen=True)
-class Input:
-    """What acts on a system from outside.
-
-    Parameters
-    ----------
-    symbol : dynamicsymbol
-    unit : str
-    meaning : str
-    kind : {"force", "couple", "prescribed motion", "drive angle"}
-    default : (value, rate, acceleration), optional
-        Expressions in the parameters and t that hold where the input is not given.
-    """
-
-    symbol: sm.Expr
-    unit: str
-    meaning: str
-    kind: str = "force"
-    default: tuple[Any, Any, Any] | None = None
-
-    @property
-    def name(self) -> str:
-        """Name of the dynamicsymbol."""
-        return self.symbol.func.__name__
+__all__ = ["System"]
 
 
 class System:
@@ -278,10 +181,39 @@ class System:
         """
         from engdyn.analysis.equilibrium import equilibria
 
-        values = self.complete(values)
-        self._check_inputs(inputs)
-        steady = self._steady(values, inputs) if self._steady else {}
+        values, steady = self._question(values, inputs)
         return equilibria(self.equations, values, self.bounds, inputs, **steady)
+
+    def branches(
+        self, parameter: str, range: tuple[float, float], values: Mapping[str, float] | None = None, **inputs: Any
+    ) -> BranchSet:
+        """Equilibria and steady motions over one parameter, within :attr:`bounds`.
+
+        Parameters
+        ----------
+        parameter : str
+            Name of the parameter that varies.
+        range : (float, float)
+            First and last value of it [SI].
+        values : mapping of str to float, optional
+            The other parameters by name [SI]; the defaults where not given.
+        **inputs : float or (value, rate, acceleration)
+            Constant inputs by name.
+        """
+        from engdyn.analysis.branches import continue_equilibria
+
+        values, steady = self._question(values, inputs)
+        return continue_equilibria(
+            self.equations, values, parameter, range, bounds=self.bounds, inputs=inputs, **steady
+        )
+
+    def _question(
+        self, values: Mapping[str, float] | None, inputs: Mapping[str, Any]
+    ) -> tuple[dict[str, float], dict[str, Any]]:
+        """All parameters, and what the system's steady motion prescribes."""
+        complete = self.complete(values)
+        self._check_inputs(inputs)
+        return complete, self._steady(complete, inputs) if self._steady else {}
 
     def complete(self, values: Mapping[str, float] | None) -> dict[str, float]:
         """Given values, checked, with the defaults for those not given."""

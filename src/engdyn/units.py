@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 import math
+import re
+import reprlib
 from functools import cache
 from typing import Any
 
 from engdyn.errors import ParameterError
 
 __all__ = ["to_si"]
+
+#: A number, then a unit: letters (or a sign such as ° or %) with exponents of one digit, joined by
+#: blanks, ``*``, ``·``, ``/`` and brackets.  Nothing else is handed on to be read.
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,4})?"
+UNIT = r"(?:[A-Za-zµμΩ°%]++(?:\s*(?:\*\*|\^)\s*-?\d(?!\d)|[²³])?|[\s*·/()]|1(?=\s*/))*"
+TEXT = re.compile(rf"\s*({NUMBER})\s*({UNIT})\s*", re.ASCII)
 
 
 @cache
@@ -30,36 +38,75 @@ def to_si(value: Any, unit: str, name: str) -> float:
     name : str
         What is converted (for the message).
 
+    Returns
+    -------
+    float
+
     Raises
     ------
     ParameterError
-        Not a finite number, or a unit that does not convert.
+        Not a finite number, text that is not a number with a unit, a unit that does not convert, a frequency
+        in hertz where radians per second are wanted.
+
+    Notes
+    -----
+    Appendix C.  The unit may be left out only where the result has none or is an angle in radians.
     """
     if isinstance(value, str):
         number = _from_text(value, unit, name)
     else:
-        if isinstance(value, bool) or value is None:
-            raise ParameterError(f"{name} is {value!r}: give a number in {unit} or text with a unit")
-        try:
-            number = float(value)
-        except (TypeError, ValueError) as error:
-            raise ParameterError(f"{name} is {value!r}: give a number in {unit} or text with a unit") from error
+        number = _from_number(value, unit, name)
     if not math.isfinite(number):
         raise ParameterError(f"{name} is {number}: give a finite number in {unit}")
     return number
 
 
+def _from_number(value: Any, unit: str, name: str) -> float:
+    try:
+        if value is None or type(value).__name__ in ("bool", "bool_"):
+            raise TypeError
+        return float(value)
+    except (OverflowError, TypeError, ValueError) as error:
+        raise ParameterError(
+            f"{name} is {reprlib.repr(value)}: give a number in {unit} or text with a unit"
+        ) from error
+
+
 def _from_text(text: str, unit: str, name: str) -> float:
     import pint
 
-    if len(text) > 100:
-        raise ParameterError(f"{name}: the text is {len(text)} characters long; give something like '3.5 {unit}'")
-    registry = _registry()
-    target = "dimensionless" if unit == "-" else unit
+    shown = reprlib.repr(text)
+    found = TEXT.fullmatch(text) if len(text) <= 100 else None
+    if found is None:
+        raise ParameterError(
+            f"{name} = {shown} is not a number with a unit: give something like {_example(unit)}"
+        )
+    number, given = found[1], found[2].strip()
+    if not given:
+        if unit in ("-", "rad"):
+            return float(number)
+        raise ParameterError(
+            f"{name} = {shown} has no unit: write {_example(unit)}, or give a number without quotes"
+        )
     try:
-        quantity = registry.Quantity(text)
-        return float(quantity.to(target).magnitude)
+        quantity = _registry().Quantity(float(number), given)
+        if unit.startswith("rad/s") and "hertz" in str(quantity.units):
+            raise ParameterError(
+                f"{name} = {shown} is a frequency, wanted is {unit}: write it in rad/s, rpm or turn/s "
+                "(1 Hz = 2π rad/s)"
+            )
+        return float(quantity.to("dimensionless" if unit == "-" else unit).magnitude)
     except pint.DimensionalityError as error:
-        raise ParameterError(f"{name} = {text!r} cannot be converted to {unit}: its unit measures something else") from error
-    except Exception as error:  # pint raises many kinds of errors on text it cannot read
-        raise ParameterError(f"{name} = {text!r} is not a number with a unit: give something like '3.5 {unit}'") from error
+        raise ParameterError(
+            f"{name} = {shown} cannot be converted to {unit}: its unit measures something else"
+        ) from error
+    except ParameterError:
+        raise
+    except Exception as error:  # pint raises many kinds of errors on units it does not know
+        raise ParameterError(
+            f"{name} = {shown}: {given!r} is not a unit; give something like {_example(unit)}"
+        ) from error
+
+
+def _example(unit: str) -> str:
+    return "'3.5'" if unit == "-" else f"'3.5 {unit}'"

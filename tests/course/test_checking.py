@@ -139,7 +139,7 @@ def test_right_speeds_in_any_form(answer):
         ("4.3", "((m+M_c)*g+3*k*l)/(3*k*l+m*l*Omega**2)", "right for k = 0"),
         ("4.3", "((m-M_c)*g+2*k*l)/(2*k*l+m*l*Omega**2)", "right for M_c = 0"),
         ("4.3", COSINE + sm.Symbol("c_p") / (m * l**2 * Omega), "does not depend on c_p"),
-        ("4.3", "(m+M_c)*g/(m*g)", "does depend on l, k and Omega"),
+        ("4.3", "(m+M_c)*g/(m*g)", "does not depend on l, k, Omega and g"),
         ("4.3", "cos(theta)", "still contains theta"),
         ("4.3", dynamicsymbols("theta"), "still contains theta"),
         ("4.3", "sqrt(1 - 4*k/(k + m*Omega^2))", "no real value"),
@@ -148,7 +148,7 @@ def test_right_speeds_in_any_form(answer):
         ("4.3b", "-sqrt((m+M_c)*g/(m*l))", "Only the sign"),
         ("4.3b", "sqrt((m+M_c)*g/m)", "Check the units"),
         ("4.3b", "1.41421*sqrt((m+M_c)*g/(2*m*l))", "constant factor"),
-        ("4.13b", "atan(asin(0.1))*m_s*g/(k_f*a)", "does depend on"),
+        ("4.13b", "atan(asin(0.1))*m_s*g/(k_f*a)", "does not depend on b, m_f, m_r"),
         ("4.14c", "m*g*l*(h-d)/(h*d*(h-d-L_0)) + 1e-6*k", "does not depend on k"),
         ("4.15c", "sqrt(4*k*d^3/(27*C)*(1 + 0.001*sin(1)))", "constant factor"),
     ],
@@ -307,6 +307,7 @@ CRANE_TEXT = [
         [TROLLEY + SWING / L, SWING],
         [sm.Eq(TROLLEY + F, F), SWING / mm],
         sm.Matrix([TROLLEY, SWING]),
+        sm.ImmutableMatrix([TROLLEY, SWING]),
         CRANE_TEXT,
         ed.EquationsOfMotion.from_residuals([TROLLEY, SWING], [x, theta]),
         ed.systems.load("S07").newton(),
@@ -346,7 +347,7 @@ def test_wrong_equations_are_told_apart_without_the_right_term(answer, words):
     assert not verdict.right
     assert words in repr(verdict)
     assert "m*g*L" not in verdict.hint
-    assert "sin" not in verdict.hint or "sines" in verdict.hint or "units" in verdict.hint
+    assert "sin(" not in verdict.hint or "units" in verdict.hint
 
 
 def test_a_drive_angle_may_be_written_as_its_speed():
@@ -483,7 +484,7 @@ def nested(depth):
 def deep_expression():
     found = sm.Symbol("m")
     for _ in range(300):
-        found = sm.sin(found) + 1
+        found = sm.sin(found, evaluate=False)
     return found
 
 
@@ -491,7 +492,7 @@ def doubling_expression():
     """A small graph that is an enormous tree."""
     found = sm.Symbol("m")
     for _ in range(60):
-        found = sm.sin(found) + sm.cos(found)
+        found = sm.Add(sm.sin(found, evaluate=False), sm.cos(found, evaluate=False), evaluate=False)
     return found
 
 

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 import engdyn as ed
 from engdyn.widgets import equilibrium_explorer as module
 from engdyn.widgets import explorer as frame
-from engdyn.widgets.equilibrium_explorer import find, follow, slider
+from engdyn.widgets.equilibrium_explorer import find, slider
 
 CRITICAL = math.sqrt((1.2 + 3.0) * 9.81 / (1.2 * 0.25))
 
@@ -66,9 +66,9 @@ def test_the_present_value_and_the_equilibria_there_are_marked(explorer):
 
 @pytest.fixture
 def followed(monkeypatch):
-    """Every call of `follow`."""
-    calls = []
-    monkeypatch.setattr(module, "follow", lambda *given: calls.append(given) or follow(*given))
+    """Every call of `System.branches`."""
+    calls, follow = [], ed.System.branches
+    monkeypatch.setattr(ed.System, "branches", lambda *given: calls.append(given[3]) or follow(*given))
     return calls
 
 
@@ -108,7 +108,7 @@ def test_while_dragged_in_a_live_notebook_the_diagram_waits_for_rest(followed, m
     assert len(explorer.figure.axes[1].patches) == 1  # veiled
     (call,) = loop.waiting
     call.run()
-    assert [values["m"] for _, values, *_ in followed] == [1.2, 2.4]
+    assert [values["m"] for values in followed] == [1.2, 2.4]
     assert not explorer.figure.axes[1].patches
     (diamond,) = (line for line in explorer.figure.axes[1].lines if line.get_marker() == "D")
     assert diamond.get_xdata()[0] == pytest.approx(math.sqrt((2.4 + 3.0) * 9.81 / (2.4 * 0.25)), abs=1e-6)
@@ -237,7 +237,7 @@ def test_the_model_knows_nothing_of_pictures():
     found, verdicts = find(governor, governor.values(Omega=18.0))
     assert [state.q[0] for state in found] == pytest.approx([-0.77269, 0.0, 0.77269], abs=1e-5)
     assert verdicts == ["asymptotically stable", "unstable (divergence)", "asymptotically stable"]
-    branches = follow(governor, governor.values(), "Omega", (5.0, 30.0))
+    branches = governor.branches("Omega", (5.0, 30.0))
     assert [point.parameter for point in branches.points] == pytest.approx([CRITICAL])
 
 

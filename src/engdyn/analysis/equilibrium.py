@@ -13,9 +13,9 @@ import numpy as np
 
 from engdyn.algebra.balls import ball, contains_zero, is_finite, lower, upper
 from engdyn.algebra.codegen import compile_elements
-from engdyn.algebra.ring import Element
 from engdyn.analysis.enclosure import enclose_roots
 from engdyn.analysis.results import Equilibrium, EquilibriumSet
+from engdyn.analysis.slopes import Products, as_products, compile_products, slope
 from engdyn.analysis.steady import SteadyProblem, Unknown
 from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
@@ -163,10 +163,11 @@ def is_periodic(problem: SteadyProblem, unknown: Unknown, region: tuple[float, f
 
 def _ball_functions(problem: SteadyProblem) -> tuple[Callable, Callable]:
     """The rows and their Jacobian as functions of balls."""
-    partials = [problem.ring.partial(u.key) for u in problem.unknowns]
-    n = len(partials)
-    function = _on_balls(problem, problem.rows)
-    slopes = _on_balls(problem, [partial(row) for row in problem.rows for partial in partials])
+    n = len(problem.unknowns)
+    function = _on_balls(problem, [as_products(row) for row in problem.rows])
+    slopes = _on_balls(
+        problem, [slope(problem.ring, row, u.key) for row in problem.rows for u in problem.unknowns]
+    )
 
     def jacobian(z: list[Any]) -> list[list[Any]]:
         flat = slopes(z)
@@ -175,10 +176,10 @@ def _ball_functions(problem: SteadyProblem) -> tuple[Callable, Callable]:
     return function, jacobian
 
 
-def _on_balls(problem: SteadyProblem, elements: Sequence[Element]) -> Callable[[list[Any]], tuple]:
+def _on_balls(problem: SteadyProblem, entries: Sequence[Products]) -> Callable[[list[Any]], tuple]:
     constants = [ball(value) for value in problem.constants.values()]
     keys = [*(u.key for u in problem.unknowns), *problem.constants]
-    compiled = compile_elements(elements, keys, "balls")
+    compiled = compile_products(entries, keys, "balls")
     return lambda z: compiled(*z, *constants)
 
 
@@ -186,7 +187,11 @@ def _complete(
     problem: SteadyProblem, roots: Sequence[list[Any]], bounds: Mapping[str, tuple[float, float]]
 ) -> list[Equilibrium]:
     """Equilibria from enclosures of the unknowns: eliminated unknowns added, bounds and inertia checked."""
-    follow = _on_balls(problem, [e for _, e in problem.eliminated]) if problem.eliminated else lambda z: ()
+    follow = (
+        _on_balls(problem, [as_products(e) for _, e in problem.eliminated])
+        if problem.eliminated
+        else lambda z: ()
+    )
     found = []
     for z in roots:
         solution = dict(zip((u.name for u in problem.unknowns), z, strict=True))

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 import sympy as sm
 
 from engdyn.algebra.ring import Element
+from engdyn.analysis.slopes import Products
 from engdyn.analysis.small_motion import motion_keys
 from engdyn.errors import EngdynError
 from engdyn.modeling.numbers import input_values, parameter_values
@@ -90,6 +91,10 @@ class ExactSample:
 
     def _random(self, largest: int = 10**6) -> Fraction:
         return Fraction(self._source.randint(1, largest), self._source.randint(1, 10**6))
+
+    def sum_of_products(self, products: Products) -> int:
+        """Value of a sum of products modulo the prime."""
+        return sum(math.prod(map(self.value, product)) for product in products) % self._prime
 
     def value(self, element: Element) -> int:
         """Value of an element modulo the prime."""

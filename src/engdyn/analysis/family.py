@@ -11,8 +11,8 @@ from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.codegen import compile_elements
 from engdyn.algebra.conversion import Converter
-from engdyn.algebra.ring import Element
 from engdyn.analysis.equilibrium import Equilibrium, is_periodic
+from engdyn.analysis.slopes import as_products, compile_products, slope
 from engdyn.analysis.steady import SteadyProblem
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.numbers import mass_and_force
@@ -78,14 +78,13 @@ class Family:
         problem, ring = self.problem, self.problem.ring
         varied = [("symbol", symbol), *(("function", w, k) for w, k, _ in self._driven)]
         n = len(self.unknowns)
-        elements: list[Element] = list(problem.rows)
+        entries = [as_products(row) for row in problem.rows]
         for key in (*(u.key for u in self.unknowns), *varied):
-            partial = ring.partial(key)
-            elements += [partial(row) for row in problem.rows]
+            entries += [slope(ring, row, key) for row in problem.rows]
         constants = [key for key in problem.constants if key not in varied]
         self._constant_values = [float(problem.constants[key]) for key in constants]
-        self._compiled = compile_elements(
-            elements, [*(u.key for u in self.unknowns), *varied, *constants], "math"
+        self._compiled = compile_products(
+            entries, [*(u.key for u in self.unknowns), *varied, *constants], "math"
         )
         defaults = [e for _, _, e in self._driven]
         rates = [e.diff(symbol) for e in defaults]

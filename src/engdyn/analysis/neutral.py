@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from engdyn.algebra.ring import Element
 from engdyn.analysis.exact_sample import ExactSample, NoRootError, primes
 from engdyn.analysis.linear import LinearSystem
 from engdyn.analysis.small_motion import small_motion
@@ -58,10 +57,10 @@ def _zeros(linear: LinearSystem, seed: int, **choices: bool) -> int:
 
 def _state_matrix(linear: LinearSystem, sample: ExactSample, prime: int) -> Matrix:
     """A modulo the prime."""
-    blocks: dict[str, list[list[Element]]] = small_motion(linear.eom)
+    blocks = small_motion(linear.eom)
     needed = ("M", "C", "K", "Gq", "G")
     numbers: dict[str, Any] = {
-        name: [[sample.value(entry) for entry in row] for row in blocks[name]] for name in needed
+        name: [[sample.sum_of_products(entry) for entry in row] for row in blocks[name]] for name in needed
     }
     lower = _solve(numbers["M"], [[*k, *c] for k, c in zip(numbers["K"], numbers["C"], strict=True)], prime)
     upper = [[*a, *b] for a, b in zip(numbers["Gq"], numbers["G"], strict=True)]

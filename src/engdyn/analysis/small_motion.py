@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from engdyn.algebra.codegen import compile_elements
-from engdyn.algebra.ring import Element
+from engdyn.analysis.slopes import Products, as_products, compile_products, slope
 from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
 
@@ -32,8 +31,8 @@ def motion_keys(eom: EquationsOfMotion) -> tuple[list[Key], list[Key], list[Key]
     )
 
 
-def small_motion(eom: EquationsOfMotion) -> dict[str, list[list[Element]]]:
-    """Jacobians of the residual and of the kinematics, exact, as rows of ring elements."""
+def small_motion(eom: EquationsOfMotion) -> dict[str, list[list[Products]]]:
+    """Jacobians of the residual and of the kinematics, exact, as rows of sums of products."""
     cache = eom.__dict__.setdefault("_small_motion", {})
     if cache:
         return cache
@@ -49,11 +48,10 @@ def small_motion(eom: EquationsOfMotion) -> dict[str, list[list[Element]]]:
     inputs = [[("function", w, k) for w in eom.inputs] for k in (0, 1, 2)]
     by = {"K": q_keys, "C": u_keys, "B0": inputs[0], "B1": inputs[1], "B2": inputs[2]}
     for name, keys in by.items():
-        partials = [ring.partial(key) for key in keys]
-        cache[name] = [[partial(row) for partial in partials] for row in residuals]
-    cache["M"] = [list(line) for line in eom.mass]
-    cache["Gq"] = [[partial(rate) for partial in map(ring.partial, q_keys)] for rate in eom.rates]
-    cache["G"] = [[partial(rate) for partial in map(ring.partial, u_keys)] for rate in eom.rates]
+        cache[name] = [[slope(ring, row, key) for key in keys] for row in residuals]
+    cache["M"] = [[as_products(entry) for entry in line] for line in eom.mass]
+    cache["Gq"] = [[slope(ring, rate, key) for key in q_keys] for rate in eom.rates]
+    cache["G"] = [[slope(ring, rate, key) for key in u_keys] for rate in eom.rates]
     return cache
 
 
@@ -63,7 +61,7 @@ def compiled_blocks(eom: EquationsOfMotion, target: str) -> Any:
     if target not in cache:
         blocks = small_motion(eom)
         flat = [entry for name in BLOCKS for row in blocks[name] for entry in row]
-        cache[target] = compile_elements(flat, [*eom.arguments, *motion_keys(eom)[2]], target)
+        cache[target] = compile_products(flat, [*eom.arguments, *motion_keys(eom)[2]], target)
     return cache[target]
 
 

@@ -10,6 +10,7 @@ import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.readable import to_sympy, tree
+from engdyn.analysis.slopes import Products
 from engdyn.analysis.small_motion import BLOCKS, block_shapes, motion_keys, small_motion
 from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
@@ -49,7 +50,7 @@ def symbolic_matrices(eom: EquationsOfMotion, state: list[Any], given: Mapping[s
     def matrix(name: str) -> sm.Matrix:
         rows = small_motion(eom)[name]
         shape = block_shapes(eom)[name]
-        entries = [to_sympy(tree(entry)) for row in rows for entry in row]
+        entries = [_written(entry) for row in rows for entry in row]
         entries = [entry.xreplace({key: replaced[key] for key in ordered}) for entry in entries]
         return sm.Matrix(*shape, [sm.factor_terms(entry) for entry in entries])
 
@@ -65,6 +66,10 @@ def symbolic_matrices(eom: EquationsOfMotion, state: list[Any], given: Mapping[s
     inverse = blocks["M"].LUsolve(blocks["K"].row_join(blocks["C"]))
     state_matrix = blocks["Gq"].row_join(blocks["G"]).col_join(-inverse)
     return blocks["M"], blocks["C"], blocks["K"], tuple(forces), state_matrix, tuple(sorted(changing))
+
+
+def _written(products: Products) -> sm.Expr:
+    return sm.Add(*(sm.Mul(*(to_sympy(tree(factor)) for factor in product)) for product in products))
 
 
 def _check_inputs(eom: EquationsOfMotion, given: Mapping[str, Any]) -> None:

@@ -86,7 +86,9 @@ class Equations:
         """Residuals from equations of motion, one equation or a list of them."""
         if isinstance(answer, EquationsOfMotion):
             return tuple(map(case.notation.residual, residuals(answer)))
-        if isinstance(answer, str | sm.Basic) or not isinstance(answer, Iterable):
+        if isinstance(answer, sm.MatrixBase):
+            answer = answer.flat()
+        elif isinstance(answer, str | sm.Basic) or not isinstance(answer, Iterable):
             answer = [answer]
         expected = len(case.system.coordinates)
         found: list[sm.Expr] = []

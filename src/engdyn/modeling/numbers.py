@@ -10,6 +10,8 @@ import numpy as np
 import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
+from engdyn.algebra.codegen import compile_elements
+from engdyn.algebra.conversion import Converter
 from engdyn.errors import EngdynError
 
 if TYPE_CHECKING:
@@ -59,7 +61,8 @@ def input_values(
         if name in given:
             found += _input_triple(name, given[name])
         elif function in eom.defaults:
-            found += [_default(part, values, t) for part in eom.defaults[function]]
+            symbols, compiled = _default(eom, function)
+            found += compiled(*(float(values[x.name]) for x in symbols), t)
         else:
             found += [0.0, 0.0, 0.0]
     return found
@@ -81,9 +84,17 @@ def _input_triple(name: str, value: Any) -> list[float]:
     return [_finite(part, f"input {name}") for part in parts]
 
 
-def _default(part: sm.Expr, values: Mapping[str, float], t: float) -> float:
-    numbers = {s: values[s.name] for s in sm.sympify(part).free_symbols if s.name in values}
-    return float(sm.sympify(part).xreplace({**numbers, dynamicsymbols._t: sm.Float(t)}))
+def _default(eom: EquationsOfMotion, function: sm.Expr) -> tuple[list[sm.Symbol], Callable[..., tuple]]:
+    """Value, rate and acceleration that hold where an input is not given, compiled once."""
+    cache = eom.__dict__.setdefault("_defaults", {})
+    if function not in cache:
+        parts = [sm.sympify(part) for part in eom.defaults[function]]
+        t = dynamicsymbols._t
+        symbols = sorted({s for part in parts for s in part.free_symbols} - {t}, key=lambda s: s.name)
+        keys = [("symbol", s) for s in (*symbols, t)]
+        converter = Converter(parts, keys)
+        cache[function] = symbols, compile_elements([converter.convert(part) for part in parts], keys)
+    return cache[function]
 
 
 def accelerations(

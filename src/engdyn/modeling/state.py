@@ -13,7 +13,8 @@ from sympy.core.function import AppliedUndef
 from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.conversion import Converter
-from engdyn.algebra.elimination import eliminate
+from engdyn.algebra.elimination import eliminate, solve
+from engdyn.algebra.readable import to_sympy, tree
 from engdyn.algebra.ring import Derivation, Element, Ring
 from engdyn.algebra.scan import derivative_key
 from engdyn.errors import EngdynError
@@ -27,13 +28,15 @@ def check_coordinates(coordinates: Iterable[sm.Expr]) -> tuple[sm.Expr, ...]:
     """The coordinates as a tuple of distinct dynamicsymbols."""
     if isinstance(coordinates, sm.Basic):
         raise EngdynError(
-            f"coordinates must be a list of dynamicsymbols, not the single expression {coordinates}: write [{coordinates}]"
+            f"coordinates must be a list of dynamicsymbols, not the single expression {coordinates}: "
+            f"write [{coordinates}]"
         )
     found = tuple(coordinates)
     for q in found:
         if not isinstance(q, AppliedUndef) or derivative_key(q) is None:
             raise EngdynError(
-                f"the coordinate {q!r} is not a dynamicsymbol: make it with sympy.physics.mechanics.dynamicsymbols"
+                f"the coordinate {q!r} is not a dynamicsymbol: make it with "
+                "sympy.physics.mechanics.dynamicsymbols"
             )
     if not found or len(set(found)) != len(found):
         raise EngdynError(f"coordinates {list(found)}: give at least one, each of them once")
@@ -137,38 +140,46 @@ def dependent_rates(
     speeds, rates
         The independent speeds and, for each dependent coordinate, its rate in terms of them.
     """
-    from engdyn.algebra.readable import to_sympy, tree
-
     t = dynamicsymbols._t
     state = State(coordinates, constraints)
-    rows = [state.convert(c) for c in constraints]
-    partials = state.speed_partials()
-    wanted = None if speeds is None else [list(state.speeds).index(u) for u in _known_rates(state, speeds)]
+    matrix = _linear_in_rates(state, constraints)
     order = list(range(len(coordinates)))
+    wanted = None if speeds is None else [state.speeds.index(u) for u in _known_rates(state, speeds)]
     if wanted is not None:
-        order = [*wanted, *(i for i in order if i not in wanted)]
-    matrix = [[partial(row) for partial in partials] for row in rows]
-    for line, row in zip(matrix, rows, strict=True):
-        if any(partial(entry).is_zero() is False for entry in line for partial in partials):
+        if len(wanted) != len(coordinates) - len(constraints):
             raise EngdynError(
-                "a velocity constraint is not linear in the rates of the coordinates: differentiate it"
+                f"{len(wanted)} speeds for {len(coordinates)} coordinates under {len(constraints)} velocity "
+                f"constraints: give {len(coordinates) - len(constraints)}"
             )
-        rest = row
-        for entry, u in zip(line, state.speed_keys, strict=True):
-            rest = rest - entry * state.ring.generator(u)
-        line.append(rest)
+        order = [*wanted, *(i for i in order if i not in wanted)]
     dependent = _dependent_columns(matrix, order)
-    if len(dependent) < len(constraints):
+    independent = [i for i in order if i not in dependent]
+    if len(dependent) < len(constraints) or (wanted is not None and independent != wanted):
         raise EngdynError(
-            f"{len(constraints)} velocity constraints fix only {len(dependent)} rates: one of them follows from the "
-            "others, or the speeds asked for are not independent"
+            f"{len(constraints)} velocity constraints fix only {len(dependent)} rates: one of them follows from "
+            "the others, or the speeds asked for are not independent"
         )
-    independent = [i for i in range(len(coordinates)) if i not in dependent]
-    if wanted is not None:
-        independent = wanted
+    if not independent:
+        raise EngdynError("as many velocity constraints as coordinates: nothing is left that can move")
     found = _solved(matrix, dependent, independent, state)
     rates = {coordinates[j]: to_sympy(tree(e)) for j, e in zip(dependent, found, strict=True)}
     return tuple(coordinates[i].diff(t) for i in independent), rates
+
+
+def _linear_in_rates(state: State, constraints: Sequence[sm.Expr]) -> list[list[Element]]:
+    """Velocity constraints as rows ``[A | b]`` with A q̇ + b = 0."""
+    matrix = []
+    for row in (state.convert(c) for c in constraints):
+        line = [partial(row) for partial in state.speed_partials()]
+        for entry, u in zip(line, state.speed_keys, strict=True):
+            row = row - entry * state.ring.generator(u)
+        line.append(row)
+        if any(state.ring.keys[i] in state.speed_keys for i in state.ring.independent(line)):
+            raise EngdynError(
+                "a velocity constraint is not linear in the rates of the coordinates: differentiate it"
+            )
+        matrix.append(line)
+    return matrix
 
 
 def _known_rates(state: State, speeds: Sequence[sm.Expr]) -> Sequence[sm.Expr]:
@@ -197,8 +208,6 @@ def _solved(
     matrix: list[list[Element]], dependent: list[int], independent: list[int], state: State
 ) -> list[Element]:
     """Dependent rates as linear combinations of the independent ones."""
-    from engdyn.algebra.elimination import solve
-
     rows = []
     for row in matrix:
         rest = row[-1]

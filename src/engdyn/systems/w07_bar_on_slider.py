@@ -9,7 +9,8 @@ from sympy.physics.mechanics import Force, Particle, Point, ReferenceFrame, Rigi
 
 from engdyn import shapes as sh
 from engdyn.modeling.newton import FreeBody
-from engdyn.system import Coordinate, Parameter, System
+from engdyn.quantities import Coordinate, Parameter
+from engdyn.system import System
 
 PARAMETERS = (
     Parameter("m", "kg", 3.0, "bar mass"),

@@ -9,7 +9,8 @@ from sympy.physics.mechanics import Force, Particle, Point, ReferenceFrame, dyna
 
 from engdyn import shapes as sh
 from engdyn.modeling.newton import FreeBody
-from engdyn.system import Coordinate, Input, Parameter, System
+from engdyn.quantities import Coordinate, Input, Parameter
+from engdyn.system import System
 
 PARAMETERS = (
     Parameter("m", "kg", 250.0, "load mass"),

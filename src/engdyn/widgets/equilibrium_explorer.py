@@ -25,7 +25,7 @@ from engdyn.widgets.explorer import Explorer
 if TYPE_CHECKING:
     from engdyn.analysis.branches import BranchSet
     from engdyn.analysis.equilibrium import Equilibrium
-    from engdyn.system import Parameter
+    from engdyn.quantities import Parameter
 
 __all__ = ["EquilibriumExplorer", "Found", "equilibrium", "find", "follow", "slider"]
 
@@ -71,16 +71,6 @@ def find(system: System, values: Mapping[str, float]) -> tuple[Any, list[str]]:
     """Return all equilibria at these values and the stability verdict of each."""
     found = system.equilibria(values)
     return found, verdicts(system, found)
-
-
-def follow(
-    system: System, values: Mapping[str, float], parameter: str, limits: tuple[float, float]
-) -> BranchSet:
-    """Return the branches of equilibria over one parameter."""
-    from engdyn.analysis.branches import continue_equilibria
-
-    steady = system._steady(dict(values), {}) if system._steady else {}
-    return continue_equilibria(system.equations, values, parameter, limits, bounds=system.bounds, **steady)
 
 
 class EquilibriumExplorer(Explorer):
@@ -163,7 +153,7 @@ class EquilibriumExplorer(Explorer):
             control = slider(next(p for p in system.parameters if p.name == over))
             values = {**dict(others), over: control.value}
             try:
-                self._followed[key] = follow(system, values, over, (control.low, control.high)), ""
+                self._followed[key] = system.branches(over, (control.low, control.high), values), ""
             except (EngdynError, ArithmeticError, np.linalg.LinAlgError) as error:
                 self._followed[key] = None, str(error)
             for old in list(self._followed)[:-REMEMBERED]:
