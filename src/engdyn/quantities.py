@@ -29,6 +29,8 @@ class Parameter:
         What it is, in words.
     admissible : {"positive", "nonnegative", "any"}
         Which values make sense.
+    span : (float, float), optional
+        Interval worth exploring [unit]: the range of its slider.
     """
 
     symbol: Any
@@ -36,6 +38,7 @@ class Parameter:
     default: float
     meaning: str
     admissible: str = "positive"
+    span: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.symbol, str):

@@ -1,4 +1,4 @@
-"""Stability verdicts: against numpy's roots, closed forms and Hurwitz' criterion; neutral eigenvalues; rounding."""
+"""Verdicts on stability: against numpy's roots, closed forms and Hurwitz; neutral eigenvalues; rounding."""
 
 from __future__ import annotations
 
@@ -20,9 +20,8 @@ STABLE, MARGINAL = "asymptotically stable", "marginal"
 DIVERGENCE, FLUTTER = "unstable (divergence)", "unstable (flutter)"
 
 
-def judged(case, at=None, values=None, **options):
-    values = case.values | (values or {})
-    return ed.stability(ed.linearize(case.eom, at if at is not None else {}, values))
+def judged(case, at=None, values=None):
+    return ed.stability(ed.linearize(case.eom, at or {}, case.values | (values or {})))
 
 
 def at_equilibria(case, values=None, **options):
@@ -81,7 +80,7 @@ def test_published_verdicts_of_the_catalogue():
 
 
 def follower_critical(damped):
-    """The thrust at which the mast flutters, from Hurwitz' determinant (or, undamped, the frequency equation)."""
+    """The thrust at which the mast flutters: by Hurwitz' determinant; undamped, by the frequency equation."""
     v = small.follower_mast().values
     m_1, m_2, L, k, c = v["m_1"], v["m_2"], v["L"], v["k_1"], v["c_1"] * damped
     M = np.array([[(m_1 + m_2) * L**2, m_2 * L**2], [m_2 * L**2, m_2 * L**2]])
@@ -199,7 +198,9 @@ def test_drive_train_is_not_judged_by_the_rounding_of_its_rigid_mode():
     assert (found.verdict, found.neutral) == (STABLE, 1)
     (free,) = at_equilibria(small.drive_train(), {"rho": 0.0, "B": 0.0})
     assert (free.verdict, free.neutral) == (STABLE, 2)
-    np.testing.assert_allclose(max(abs(free.eigenvalues.imag)) / (2 * pi), 43.05, atol=0.02)
+    (undamped,) = at_equilibria(small.drive_train(), {"rho": 0.0, "B": 0.0, "C_s": 0.0, "C_h": 0.0})
+    assert (undamped.verdict, undamped.neutral) == (MARGINAL, 2)
+    np.testing.assert_allclose(max(abs(undamped.eigenvalues.imag)) / (2 * pi), 43.05, atol=0.005)
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
@@ -303,9 +304,9 @@ def test_errors_bound_what_rounding_does():
 
 def test_representation():
     found = crane()[0]
-    assert repr(found) == (
-        "asymptotically stable + 1 zero eigenvalue; eigenvalues [1/s]: 0, -0.1089, -0.1364+1.781i, -0.1364-1.781i"
-    )
+    verdict, values = repr(found).split("; ")
+    assert verdict == "asymptotically stable + 1 zero eigenvalue"
+    assert values == "eigenvalues [1/s]: 0, -0.1089, -0.1364+1.781i, -0.1364-1.781i"
     assert "2 zero eigenvalues" in repr(crane(c_x=0)[0])
 
 

@@ -34,7 +34,10 @@ def test_another_process_with_another_hash_seed_draws_the_same():
     code = "import engdyn as ed; print(ed.course.variant('4.13', 'zoë'))"
     outputs = {
         subprocess.run(
-            [sys.executable, "-c", code], env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True, check=True
+            [sys.executable, "-c", code],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            check=True,
         ).stdout
         for seed in ("0", "4711")
     }

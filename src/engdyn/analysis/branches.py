@@ -144,6 +144,8 @@ def continue_equilibria(
     -----
     Course section 4.3.
     """
+    if not isinstance(eom, EquationsOfMotion):
+        raise EngdynError(f"eom is {eom!r}: give EquationsOfMotion, for example system.lagrange()")
     low, high = _checked_range(eom, parameter, range)
     steady = {"inputs": inputs, "rates": rates, "accelerations": accelerations, "free": free}
     family = Family(eom, values, parameter, (low, high), bounds, steady)

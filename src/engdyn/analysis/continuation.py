@@ -129,8 +129,7 @@ class _Tracer:
                     break
                 continue
             if not self._inside(new):
-                edge = self._to_edge(y, new, tangent)
-                points += [] if edge is None else [edge]
+                self._end(points, y, self._to_edge(y, new, tangent))
                 break
             points.append(new)
             travelled += float(np.linalg.norm(new - y))
@@ -140,6 +139,16 @@ class _Tracer:
                 points.append(first)
                 break
         return points
+
+    @staticmethod
+    def _end(points: list[np.ndarray], last: np.ndarray, edge: np.ndarray | None) -> None:
+        """Put the end of a curve behind its points; in place of the last one where both are the same."""
+        if edge is None:
+            return
+        if np.linalg.norm(edge - last) > 1e-8:
+            points.append(edge)
+        elif points:
+            points[-1] = edge
 
     def _to_edge(self, inside: np.ndarray, outside: np.ndarray, tangent: np.ndarray) -> np.ndarray | None:
         """The last point of the curve within the region, by bisection along the tangent."""

@@ -15,7 +15,7 @@ from engdyn.algebra.balls import ball, contains_zero, is_finite, lower, upper
 from engdyn.algebra.codegen import compile_elements
 from engdyn.analysis.enclosure import enclose_roots
 from engdyn.analysis.results import Equilibrium, EquilibriumSet
-from engdyn.analysis.slopes import Products, as_products, compile_products, slope
+from engdyn.analysis.slopes import Products, as_products, compile_products, slopes
 from engdyn.analysis.steady import SteadyProblem, Unknown
 from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
@@ -165,12 +165,11 @@ def _ball_functions(problem: SteadyProblem) -> tuple[Callable, Callable]:
     """The rows and their Jacobian as functions of balls."""
     n = len(problem.unknowns)
     function = _on_balls(problem, [as_products(row) for row in problem.rows])
-    slopes = _on_balls(
-        problem, [slope(problem.ring, row, u.key) for row in problem.rows for u in problem.unknowns]
-    )
+    keys = [u.key for u in problem.unknowns]
+    partials = _on_balls(problem, [e for row in problem.rows for e in slopes(problem.ring, row, keys)])
 
     def jacobian(z: list[Any]) -> list[list[Any]]:
-        flat = slopes(z)
+        flat = partials(z)
         return [list(flat[i * n : (i + 1) * n]) for i in range(n)]
 
     return function, jacobian

@@ -12,7 +12,7 @@ from sympy.physics.vector import dynamicsymbols
 from engdyn.algebra.codegen import compile_elements
 from engdyn.algebra.conversion import Converter
 from engdyn.analysis.equilibrium import Equilibrium, is_periodic
-from engdyn.analysis.slopes import as_products, compile_products, slope
+from engdyn.analysis.slopes import as_products, compile_products, slopes
 from engdyn.analysis.steady import SteadyProblem
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.numbers import mass_and_force
@@ -79,8 +79,8 @@ class Family:
         varied = [("symbol", symbol), *(("function", w, k) for w, k, _ in self._driven)]
         n = len(self.unknowns)
         entries = [as_products(row) for row in problem.rows]
-        for key in (*(u.key for u in self.unknowns), *varied):
-            entries += [slope(ring, row, key) for row in problem.rows]
+        by_row = [slopes(ring, row, [*(u.key for u in self.unknowns), *varied]) for row in problem.rows]
+        entries += [entry for by_key in zip(*by_row, strict=True) for entry in by_key]
         constants = [key for key in problem.constants if key not in varied]
         self._constant_values = [float(problem.constants[key]) for key in constants]
         self._compiled = compile_products(

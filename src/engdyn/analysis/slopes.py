@@ -14,7 +14,7 @@ from typing import Any
 from engdyn.algebra.codegen import compile_elements
 from engdyn.algebra.ring import Derivation, Element, Ring
 
-__all__ = ["Products", "as_products", "compile_products", "slope"]
+__all__ = ["Products", "as_products", "compile_products", "slopes"]
 
 Key = tuple[Any, ...]
 Products = tuple[tuple[Element, ...], ...]
@@ -29,45 +29,52 @@ def as_products(element: Element) -> Products:
     return ((element,),)
 
 
-def slope(ring: Ring, row: Element, key: Key) -> Products:
-    """∂row/∂key.
+def slopes(ring: Ring, row: Element, keys: Sequence[Key]) -> list[Products]:
+    """∂row/∂key for every key.
 
     Parameters
     ----------
     ring : Ring
     row : Element
-    key : tuple
-        An independent generator.
+    keys : sequence of tuple
+        Independent generators; the derivative is zero for those that the ring does not have.
 
     Returns
     -------
-    Products
+    list of Products
     """
-    if key not in ring.index:
-        return as_products(ring.zero)
-    outer = [i for i in row.generators() if _is_quotient_rule(ring, i)]
+    outer = [i for i in sorted(row.generators()) if _is_function(ring, i)]
     if prod(_terms_below(ring, i) for i in outer) < LARGEST:
-        return as_products(ring.partial(key)(row))
+        return [as_products(ring.partial(key)(row) if key in ring.index else ring.zero) for key in keys]
     held = dict.fromkeys(outer)
-    products: list[tuple[Element, ...]] = [(Derivation(ring, {**held, ring.index[key]: ring.one})(row),)]
-    inner = ring.partial(key)
-    for i in outer:
-        by_generator = Derivation(ring, {**held, i: ring.one})(row)
-        definition = ring.definitions[i]
-        for argument, change in zip(definition.arguments, definition.slopes, strict=False):
-            moved = inner(argument)
-            if change is not None and not moved.is_zero():
-                products.append((by_generator, change, moved))
-    return tuple(product for product in products if not any(factor.is_zero() for factor in product))
+    by_function = {i: Derivation(ring, {**held, i: ring.one})(row) for i in outer}
+    found = []
+    for key in keys:
+        if key not in ring.index:
+            found.append(as_products(ring.zero))
+            continue
+        products = [(Derivation(ring, {**held, ring.index[key]: ring.one})(row),)]
+        for i in outer:
+            products += [(by_function[i], change, moved) for change, moved in _inner(ring, i, key)]
+        found.append(tuple(p for p in products if not any(factor.is_zero() for factor in p)))
+    return found
 
 
-def _is_quotient_rule(ring: Ring, index: int) -> bool:
+def _inner(ring: Ring, index: int, key: Key) -> list[tuple[Element, Element]]:
+    """Slopes of a function with the derivatives of its arguments, remembered so that code shares them."""
+    cache = ring.__dict__.setdefault("_inner_slopes", {})
+    if (index, key) not in cache:
+        definition, partial = ring.definitions[index], ring.partial(key)
+        pairs = zip(definition.slopes, definition.arguments, strict=False)
+        cache[index, key] = [(change, partial(argument)) for change, argument in pairs if change is not None]
+    return cache[index, key]
+
+
+def _is_function(ring: Ring, index: int) -> bool:
     definition = ring.definitions.get(index)
-    return (
-        definition is not None
-        and definition.kind in ("root", "magnitude", "call")
-        and bool(definition.slopes)
-    )
+    if definition is None or definition.kind not in ("root", "magnitude", "call"):
+        return False
+    return bool(definition.slopes)
 
 
 def _terms_below(ring: Ring, index: int) -> int:
@@ -92,23 +99,24 @@ def compile_products(
     arguments, target :
         As in :func:`engdyn.algebra.codegen.compile_elements`.
     """
-    factors = [factor for entry in entries for product in entry for factor in product]
-    compiled = compile_elements(factors, arguments, target)
-    if all(len(entry) == 1 and len(entry[0]) == 1 for entry in entries):
-        return compiled
-    shapes = [[len(product) for product in entry] for entry in entries]
+    factors: dict[int, Element] = {id(f): f for entry in entries for product in entry for f in product}
+    compiled = compile_elements(list(factors.values()), arguments, target)
+    places = {key: place for place, key in enumerate(factors)}
+    plans = [[[places[id(f)] for f in product] for product in entry] for entry in entries]
 
     def function(*numbers: Any) -> tuple[Any, ...]:
-        values = iter(compiled(*numbers))
-        found = []
-        for shape in shapes:
-            total: Any = 0.0
-            for length in shape:
-                product = next(values)
-                for _ in range(length - 1):
-                    product = product * next(values)
-                total = total + product
-            found.append(total)
-        return tuple(found)
+        values = compiled(*numbers)
+        return tuple(_evaluated(plan, values) for plan in plans)
 
     return function
+
+
+def _evaluated(plan: Sequence[Sequence[int]], values: Sequence[Any]) -> Any:
+    """A sum of products of the given values; a sum of one product of one factor is that value."""
+    total: Any = None
+    for places in plan:
+        product = values[places[0]]
+        for place in places[1:]:
+            product = product * values[place]
+        total = product if total is None else total + product
+    return 0.0 if total is None else total

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from engdyn.analysis.slopes import Products, as_products, compile_products, slope
+from engdyn.analysis.slopes import Products, as_products, compile_products, slopes
 from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
 
@@ -48,10 +48,10 @@ def small_motion(eom: EquationsOfMotion) -> dict[str, list[list[Products]]]:
     inputs = [[("function", w, k) for w in eom.inputs] for k in (0, 1, 2)]
     by = {"K": q_keys, "C": u_keys, "B0": inputs[0], "B1": inputs[1], "B2": inputs[2]}
     for name, keys in by.items():
-        cache[name] = [[slope(ring, row, key) for key in keys] for row in residuals]
+        cache[name] = [slopes(ring, row, keys) for row in residuals]
     cache["M"] = [[as_products(entry) for entry in line] for line in eom.mass]
-    cache["Gq"] = [[slope(ring, rate, key) for key in q_keys] for rate in eom.rates]
-    cache["G"] = [[slope(ring, rate, key) for key in u_keys] for rate in eom.rates]
+    cache["Gq"] = [slopes(ring, rate, q_keys) for rate in eom.rates]
+    cache["G"] = [slopes(ring, rate, u_keys) for rate in eom.rates]
     return cache
 
 

@@ -68,7 +68,9 @@ class RootSet:
 
     def mistakes(self, case: Case) -> dict[tuple[float, ...], str]:
         """Wrong sets of roots at these values, as sorted tuples, and their hints."""
-        roots = list(self.solution(case))
+        return self._mistakes(case, list(self.solution(case)))
+
+    def _mistakes(self, case: Case, roots: list[float]) -> dict[tuple[float, ...], str]:
         return {tuple(sorted(float(x) for x in wrong(case, roots))): hint for wrong, hint in self.wrong}
 
     def judge(self, answer: Any, case: Case) -> Verdict:
@@ -77,7 +79,7 @@ class RootSet:
         near = self._tolerance(case, truth)
         if self._matches(given, truth, near):
             return right(self.remark)
-        for wrong, hint in self.mistakes(case).items():
+        for wrong, hint in self._mistakes(case, truth).items():
             if self._matches(given, list(wrong), near):
                 return not_yet(hint)
         return not_yet(self._statement(given, truth, near, case))

@@ -1,4 +1,11 @@
-"""All exercises of the course: what they ask, their truth and their known mistakes."""
+"""All exercises of the course: what they ask, their truth and their known mistakes.
+
+The exercises of chapter N are the ``EXERCISES`` of ``engdyn.course.bank.chNN``. To write one, make a `Setup`
+(the system, which parameters vary, which values make a clear-cut exercise) and a question: `Expression`,
+`Equations`, `Number`, `RootSet` or `Choice` of the ``judging_`` modules. Its truth is a function that derives
+the answer from the system; its known mistakes are formulas with the hint that each deserves. Parts of one
+exercise (4.3, 4.3b, 4.3c) share one `Setup`.
+"""
 
 from __future__ import annotations
 
@@ -135,8 +142,8 @@ def exercises() -> list[Exercise]:
 
     Examples
     --------
-    >>> import engdyn as ed
-    >>> [item.id for item in ed.course.exercises() if item.id.startswith("4.3")]
+    >>> from engdyn.course.registry import exercises
+    >>> [item.id for item in exercises() if item.id.startswith("4.3")]
     ['4.3', '4.3b', '4.3c']
     """
     return list(_bank().values())

@@ -16,7 +16,7 @@ PARAMETERS = (
     Parameter("m", "kg", 3.0, "bar mass"),
     Parameter("m_s", "kg", 1.0, "slider mass"),
     Parameter("l", "m", 0.6, "bar length"),
-    Parameter("gamma", "rad", pi / 6, "inclination of the guide", "any"),
+    Parameter("gamma", "rad", pi / 6, "inclination of the guide", "any", (-pi / 3, pi / 3)),
     Parameter("k", "N/m", 400.0, "slider spring", "nonnegative"),
     Parameter("c", "N s/m", 4.0, "slider damping", "nonnegative"),
     Parameter("c_h", "N m s/rad", 0.15, "hinge damping", "nonnegative"),

@@ -16,7 +16,7 @@ PARAMETERS = (
     Parameter("m", "kg", 1.5, "plate mass"),
     Parameter("b", "m", 0.4, "plate length, hinge to free edge"),
     Parameter("w", "m", 0.2, "plate width along the hinge"),
-    Parameter("e", "m", 0.02, "offset of the hinge from the axis", "any"),
+    Parameter("e", "m", 0.02, "offset of the hinge from the axis", "any", (-0.08, 0.08)),
     Parameter("Omega", "rad/s", 9.0, "speed of rotation", "any"),
     Parameter("c", "N m s/rad", 0.12, "hinge damping", "nonnegative"),
     Parameter("g", "m/s^2", 9.81, "gravity", "any"),

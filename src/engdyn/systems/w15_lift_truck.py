@@ -15,7 +15,7 @@ from engdyn.system import System
 PARAMETERS = (
     Parameter("m", "kg", 250.0, "load mass"),
     Parameter("l", "m", 1.6, "chain length"),
-    Parameter("a", "m/s^2", 2.0, "acceleration of the truck", "any"),
+    Parameter("a", "m/s^2", 2.0, "acceleration of the truck", "any", (-6.0, 6.0)),
     Parameter("c", "N m s/rad", 60.0, "damping of the swing", "nonnegative"),
     Parameter("g", "m/s^2", 9.81, "gravity", "any"),
 )

@@ -53,13 +53,16 @@ class Found:
 
 
 def slider(parameter: Parameter) -> Slider:
-    """Return a slider for a parameter: 0 (what must be positive: 0.2) to 2.5 times the default.
+    """Return a slider for a parameter: its span, else 0 (what must be positive: 0.2) to 2.5 times the default.
 
     A default of zero tells no scale: such a parameter goes up to 10 in its unit, or from -10 if it may be
     negative.
     """
     default = float(parameter.default)
-    if default == 0.0:
+    if parameter.span is not None:
+        low, high = parameter.span
+        step = abs(default) / 50.0 or (high - low) / 100.0
+    elif default == 0.0:
         low, high, step = (-10.0 if parameter.admissible == "any" else 0.0), 10.0, 0.1
     else:
         low, high = sorted((0.2 * default if parameter.admissible == "positive" else 0.0, 2.5 * default))

@@ -1,0 +1,166 @@
+"""The systems that deriving is timed on, each as sympy.physics.mechanics objects for all tools alike."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import sympy as sm
+from sympy.physics.mechanics import (
+    Force,
+    KanesMethod,
+    LagrangesMethod,
+    Particle,
+    Point,
+    ReferenceFrame,
+    RigidBody,
+    dynamicsymbols,
+    inertia,
+)
+
+import engdyn as ed
+
+
+@dataclass
+class Model:
+    """One system, ready for every tool."""
+
+    name: str
+    coordinates: list
+    frame: ReferenceFrame
+    free_bodies: list
+    unknowns: list
+    kinetic: sm.Expr
+    potential: sm.Expr
+    dissipation: sm.Expr = sm.S.Zero
+    forces: dict = field(default_factory=dict)
+
+
+def catalogue_system(key: str) -> Model:
+    """A system of the catalogue."""
+    s = ed.systems.load(key)
+    return Model(
+        f"{key} {s.key}",
+        [c.symbol for c in s.coordinates],
+        s.frame,
+        s.free_bodies(),
+        list(s.unknowns),
+        s.kinetic_energy,
+        s.potential_energy,
+        s.dissipation,
+        s.generalized_forces,
+    )
+
+
+def cart_with_links(n: int) -> Model:
+    """A cart on a rail with n point masses hanging from it in a chain, absolute angles, a force on the cart."""
+    q = dynamicsymbols(f"q:{n + 1}")
+    F = dynamicsymbols("F")
+    g, *masses = sm.symbols(f"g m:{n + 1}", positive=True)
+    lengths = sm.symbols(f"l1:{n + 1}", positive=True)
+    rail, tensions = sm.Symbol("R"), sm.symbols(f"S1:{n + 1}")
+    N, O = ReferenceFrame("N"), Point("O")
+    O.set_vel(N, 0)
+    here = O.locatenew("P0", q[0] * N.x)
+    points, pulls, velocity = [here], [], [q[0].diff(), sm.S.Zero]
+    kinetic, potential = masses[0] * q[0].diff() ** 2 / 2, sm.S.Zero
+    height = sm.S.Zero
+    for i in range(n):
+        down = sm.sin(q[i + 1]) * N.x - sm.cos(q[i + 1]) * N.y
+        here = here.locatenew(f"P{i + 1}", lengths[i] * down)
+        points.append(here)
+        pulls.append(tensions[i] * down)
+        velocity = [
+            velocity[0] + lengths[i] * sm.cos(q[i + 1]) * q[i + 1].diff(),
+            velocity[1] + lengths[i] * sm.sin(q[i + 1]) * q[i + 1].diff(),
+        ]
+        height -= lengths[i] * sm.cos(q[i + 1])
+        kinetic += masses[i + 1] * (velocity[0] ** 2 + velocity[1] ** 2) / 2
+        potential += masses[i + 1] * g * height
+    bodies = []
+    for i, point in enumerate(points):
+        applied = [Force(point, -masses[i] * g * N.y)] + ([Force(point, F * N.x)] if i == 0 else [])
+        reactions = [Force(point, rail * N.y)] if i == 0 else [Force(point, -pulls[i - 1])]
+        reactions += [Force(point, pulls[i])] if i < n else []
+        bodies.append(ed.FreeBody(Particle(f"b{i}", point, masses[i]), applied, reactions))
+    return Model(
+        f"cart + {n} links", list(q), N, bodies, [rail, *tensions], kinetic, potential, forces={q[0]: F}
+    )
+
+
+def heavy_top() -> Model:
+    """A symmetric top about a fixed point in three angles."""
+    a, b, c = dynamicsymbols("a b c")
+    m, l, A, C, g = sm.symbols("m l A C g", positive=True)
+    reactions = sm.symbols("R_x R_y R_z")
+    N, P, Q, B = (ReferenceFrame(name) for name in "NPQB")
+    P.orient_axis(N, a, N.z)
+    Q.orient_axis(P, b, P.x)
+    B.orient_axis(Q, c, Q.z)
+    O = Point("O")
+    O.set_vel(N, 0)
+    G = O.locatenew("G", l * B.z)
+    tensor = inertia(Q, A, A, C)
+    body = RigidBody("top", G, B, m, (tensor, G))
+    load = sum((r * axis for r, axis in zip(reactions, (N.x, N.y, N.z), strict=True)), 0 * N.x)
+    free = ed.FreeBody(body, [Force(G, -m * g * N.z)], [Force(O, load)])
+    across = b.diff() ** 2 + (a.diff() * sm.sin(b)) ** 2
+    along = c.diff() + a.diff() * sm.cos(b)
+    kinetic = (A + m * l**2) * across / 2 + C * along**2 / 2
+    return Model("heavy top, 3-D", [a, b, c], N, [free], list(reactions), kinetic, m * g * l * sm.cos(b))
+
+
+def doubled(body: ed.FreeBody) -> tuple[list, list]:
+    """The body and its applied loads with everything twice: a mirrored pair in the eyes of Kane's method."""
+    twice = Particle(body.name, body.body.point, 2 * body.body.mass)
+    return [twice], [Force(load.point, 2 * load.force) for load in body.applied]
+
+
+def kane_input(model: Model) -> tuple[list, list]:
+    """Bodies and loads for KanesMethod; the governor's one ball stands for both."""
+    bodies, loads = [], []
+    for free in model.free_bodies:
+        if model.name.startswith("S03") and free.name == "ball":
+            more = doubled(free)
+        else:
+            more = [free.body], list(free.applied)
+        bodies += more[0]
+        loads += more[1]
+    return bodies, loads
+
+
+def kane(model: Model) -> KanesMethod:
+    """sympy's KanesMethod on the same bodies and loads, equations formed."""
+    t = dynamicsymbols._t
+    speeds = dynamicsymbols(f"u:{len(model.coordinates)}")
+    method = KanesMethod(
+        model.frame,
+        q_ind=model.coordinates,
+        u_ind=list(speeds),
+        kd_eqs=[u - q.diff(t) for u, q in zip(speeds, model.coordinates, strict=True)],
+    )
+    method.kanes_equations(*kane_input(model))
+    return method
+
+
+def lagrangian(model: Model) -> LagrangesMethod:
+    """sympy's LagrangesMethod on the same energies, equations formed; the rest as generalized forces."""
+    t = dynamicsymbols._t
+    loads = []
+    for i, q in enumerate(model.coordinates):
+        Q = model.forces.get(q, 0) - sm.diff(model.dissipation, q.diff(t))
+        if Q != 0:  # a torque Q on a frame that turns with q does the work Q dq
+            frame = ReferenceFrame(f"D{i}")
+            frame.set_ang_vel(model.frame, q.diff(t) * model.frame.z)
+            loads.append((frame, Q * model.frame.z))
+    method = LagrangesMethod(model.kinetic - model.potential, model.coordinates, forcelist=loads, frame=model.frame)
+    method.form_lagranges_equations()
+    return method
+
+
+def engdyn(model: Model) -> ed.Proof:
+    """Both derivations and the proof that they agree, the result turned into sympy matrices."""
+    a = ed.newton_euler(model.free_bodies, model.coordinates, model.frame, model.unknowns)
+    b = ed.lagrange(model.kinetic, model.potential, model.coordinates, model.dissipation, model.forces)
+    proof = ed.prove_equal(a, b)
+    assert proof and b.mass_matrix.shape[0] == b.forcing.shape[0]
+    return proof

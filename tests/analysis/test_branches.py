@@ -1,0 +1,380 @@
+"""Branches over a parameter: normal forms and closed forms, each branch once, ends exactly on the range."""
+
+from __future__ import annotations
+
+import math
+import time
+
+import numpy as np
+import pytest
+
+import engdyn as ed
+from analysis import small_systems as small
+
+GOVERNOR = ed.systems.load(3)
+VALUES = GOVERNOR.values()
+CRITICAL = math.sqrt((VALUES["m"] + VALUES["M_c"]) * VALUES["g"] / (VALUES["m"] * VALUES["l"]))
+
+
+def governor_cosine(Omega):
+    """cos θ of the lifted arms: m l Ω² cos = (m + M_c) g + 2 k l (1 − cos)."""
+    v = VALUES
+    spring = 2 * v["k"] * v["l"]
+    return ((v["m"] + v["M_c"]) * v["g"] + spring) / (v["m"] * v["l"] * Omega**2 + spring)
+
+
+@pytest.fixture(scope="module")
+def governor():
+    return ed.continue_equilibria(GOVERNOR.equations, VALUES, "Omega", (5.0, 30.0), bounds=GOVERNOR.bounds)
+
+
+def over_lambda(potential, name="normal form", range=(-1.0, 1.3), **values):
+    case = small.normal_form(potential, name, **values)
+    return ed.continue_equilibria(case.eom, case.values, "lam", range, bounds=case.bounds)
+
+
+def x_and_lambda():
+    return *small.coordinates("x"), *small.symbols("lam e")
+
+
+def kinds(found):
+    return sorted(p.kind for p in found.points)
+
+
+def assert_all_are_equilibria(case, found, fixed=()):
+    """Every point of every branch, by the derivative of the energies."""
+    for branch in found:
+        for at, q in zip(branch.parameter[::7], branch.q[::7], strict=True):
+            force = case.generalized_force({**case.values, found.parameter: at})
+            scale = 1e-9 * (1 + max(map(abs, case.values.values()), default=1.0))
+            assert np.max(np.abs(force(q))) < scale
+
+
+def assert_no_branch_twice(found):
+    """No point of one branch lies inside another one, but for the points where they meet."""
+    width = np.array([*np.ptp(np.vstack([b.q for b in found]), axis=0), np.ptp(found.range)])
+    curves = [np.column_stack([b.q, b.parameter]) / np.where(width > 0, width, 1) for b in found]
+    meetings = [np.append(p.q, p.parameter) / np.where(width > 0, width, 1) for p in found.points]
+    for i, a in enumerate(curves):
+        for j, b in enumerate(curves):
+            if i == j:
+                continue
+            for point in a:
+                if not any(np.linalg.norm(point - m) < 0.05 for m in meetings):
+                    assert np.min(np.linalg.norm(b - point, axis=1)) > 1e-3
+
+
+# ---------------------------------------------------------------- the governor
+
+
+def test_governor_pitchfork_to_eight_digits(governor):
+    (point,) = governor.points
+    assert point.kind == "pitchfork"
+    assert abs(point.parameter - CRITICAL) < 1e-8
+    assert np.max(np.abs(point.q)) < 1e-8
+
+
+def test_governor_arms_follow_the_closed_form(governor):
+    trunk, *arms = sorted(governor, key=lambda b: np.ptp(b.q))
+    assert len(arms) == 2
+    assert np.max(np.abs(trunk.q)) < 1e-8
+    for arm in arms:
+        np.testing.assert_allclose(np.cos(arm.q[:, 0]), governor_cosine(arm.parameter), atol=1e-8)
+    assert np.all(
+        arms[0].q[1:] * arms[1].q[1:][:: 1 if arms[0].parameter[0] == arms[1].parameter[0] else -1] < 0
+    )
+
+
+def test_governor_stability_along_the_branches(governor):
+    trunk, *arms = sorted(governor, key=lambda b: np.ptp(b.q))
+    away = np.abs(trunk.parameter - CRITICAL) > 1e-6
+    np.testing.assert_array_equal(trunk.stable[away], trunk.parameter[away] < CRITICAL)
+    for arm in arms:
+        assert arm.stable.all()
+
+
+def test_branches_end_exactly_on_the_range_and_at_the_branch_point(governor):
+    trunk, *arms = sorted(governor, key=lambda b: np.ptp(b.q))
+    assert sorted([trunk.parameter[0], trunk.parameter[-1]]) == [5.0, 30.0]
+    (point,) = governor.points
+    for arm in arms:
+        ends = sorted([(p, *q) for p, q in zip(arm.parameter[[0, -1]], arm.q[[0, -1]], strict=True)])
+        assert ends[0] == (point.parameter, *point.q)
+        assert ends[1][0] == 30.0
+    assert any(p == point.parameter for p in trunk.parameter)
+
+
+def test_governor_branches_contain_what_single_searches_find(governor):
+    for Omega in (6.3, 11.0, 13.0, 19.7, 29.0):
+        for e in GOVERNOR.equilibria({"Omega": Omega}):
+            near = [
+                np.interp(Omega, *_rising(b))
+                for b in governor
+                if b.parameter.min() <= Omega <= b.parameter.max()
+            ]
+            assert min(abs(near - e.q[0])) < 2e-3
+
+
+def _rising(branch):
+    order = np.argsort(branch.parameter)
+    return branch.parameter[order], branch.q[order, 0]
+
+
+def test_a_call_takes_a_fraction_of_a_second():
+    """Processor time, which other work on the machine does not count into; warm."""
+    options = {"bounds": GOVERNOR.bounds}
+    ed.continue_equilibria(GOVERNOR.equations, VALUES, "Omega", (5.0, 30.0), **options)
+    start = time.process_time()
+    ed.continue_equilibria(GOVERNOR.equations, VALUES, "Omega", (5.0, 30.0), **options)
+    assert time.process_time() - start < 1.0
+
+
+# ---------------------------------------------------------------- normal forms
+
+
+def test_supercritical_pitchfork():
+    x, lam, _ = x_and_lambda()
+    found = over_lambda(-lam * x**2 / 2 + x**4 / 4)
+    (point,) = found.points
+    assert (point.kind, len(found)) == ("pitchfork", 3)
+    np.testing.assert_allclose([point.parameter, *point.q], [0.0, 0.0], atol=1e-10)
+    trunk, *arms = sorted(found, key=lambda b: np.ptp(b.q))
+    for arm in arms:
+        np.testing.assert_allclose(arm.q[:, 0] ** 2, arm.parameter, atol=1e-10)
+        assert arm.stable.all()
+    np.testing.assert_array_equal(trunk.stable, trunk.parameter < -1e-12)
+    assert_no_branch_twice(found)
+
+
+def test_subcritical_pitchfork_found_from_its_arms():
+    """The curve that is met first turns around at the branch point: not a fold."""
+    x, lam, _ = x_and_lambda()
+    found = over_lambda(-lam * x**2 / 2 - x**4 / 4)
+    (point,) = found.points
+    assert point.kind == "pitchfork"
+    np.testing.assert_allclose([point.parameter, *point.q], [0.0, 0.0], atol=1e-10)
+    bent = [b for b in found if np.ptp(b.q) > 0.1]
+    for branch in bent:
+        np.testing.assert_allclose(branch.q[:, 0] ** 2, -branch.parameter, atol=1e-10)
+        assert not branch.stable.any()
+    straight = [b for b in found if np.ptp(b.q) <= 0.1]
+    assert min(b.parameter.min() for b in straight) == -1.0
+    assert max(b.parameter.max() for b in straight) == 1.3
+    for branch in straight:
+        inner = np.abs(branch.parameter) > 1e-9
+        np.testing.assert_array_equal(branch.stable[inner], branch.parameter[inner] < 0)
+    assert_no_branch_twice(found)
+
+
+def test_transcritical():
+    x, lam, _ = x_and_lambda()
+    found = over_lambda(-lam * x**2 / 2 + x**3 / 3)
+    (point,) = found.points
+    assert point.kind == "transcritical"
+    np.testing.assert_allclose([point.parameter, *point.q], [0.0, 0.0], atol=1e-10)
+    for branch in found:
+        product = branch.q[:, 0] * (branch.q[:, 0] - branch.parameter)
+        np.testing.assert_allclose(product, 0.0, atol=1e-10)
+        inner = np.abs(branch.parameter) > 1e-9
+        stable = np.where(np.abs(branch.q[:, 0]) < 1e-9, branch.parameter < 0, branch.parameter > 0)
+        np.testing.assert_array_equal(branch.stable[inner], stable[inner])
+    assert_no_branch_twice(found)
+
+
+@pytest.mark.parametrize("e", [0.05, -0.05, 1e-3])
+def test_imperfect_pitchfork_has_a_fold(e):
+    x, lam, imperfection = x_and_lambda()
+    found = over_lambda(-lam * x**2 / 2 + x**4 / 4 - imperfection * x, e=e)
+    (point,) = found.points
+    assert point.kind == "fold"
+    critical = 3 * (abs(e) / 2) ** (2 / 3)
+    np.testing.assert_allclose(point.parameter, critical, rtol=1e-9)
+    np.testing.assert_allclose(point.q[0], -math.copysign((abs(e) / 2) ** (1 / 3), e), rtol=1e-6)
+    assert len(found) == 2
+    assert_no_branch_twice(found)
+
+
+def test_a_curve_with_two_folds_is_one_branch():
+    x, lam, e = x_and_lambda()
+    case = small.normal_form(-lam * x**2 / 2 + x**4 / 4 - e * x, "hysteresis", lam=0.5)
+    found = ed.continue_equilibria(case.eom, {"lam": 0.5}, "e", (-1.0, 1.0), bounds=case.bounds)
+    (branch,) = found
+    fold = 2 * (0.5 / 3) ** 1.5
+    assert kinds(found) == ["fold", "fold"]
+    np.testing.assert_allclose(sorted(p.parameter for p in found.points), [-fold, fold], rtol=1e-12)
+    inner = np.abs(np.abs(branch.q[:, 0]) - math.sqrt(0.5 / 3)) > 1e-6
+    np.testing.assert_array_equal(branch.stable[inner], (np.abs(branch.q[:, 0]) > math.sqrt(0.5 / 3))[inner])
+    assert sorted([branch.parameter[0], branch.parameter[-1]]) == [-1.0, 1.0]
+
+
+def test_a_closed_loop_is_traced_once_and_closes():
+    x, lam, _ = x_and_lambda()
+    found = over_lambda(x**3 / 3 + x * (lam**2 - 0.04), range=(-1.0, 1.0))
+    (branch,) = found
+    np.testing.assert_allclose(branch.q[:, 0] ** 2 + branch.parameter**2, 0.04, atol=1e-10)
+    np.testing.assert_allclose(sorted(p.parameter for p in found.points), [-0.2, 0.2], atol=1e-12)
+    assert (branch.parameter[0], *branch.q[0]) == (branch.parameter[-1], *branch.q[-1])
+    turned = np.unwrap(np.arctan2(branch.parameter, branch.q[:, 0]))
+    np.testing.assert_allclose(abs(turned[-1] - turned[0]), 2 * math.pi, atol=1e-9)  # once around
+
+
+def test_flat_pitchfork():
+    x, lam, _ = x_and_lambda()
+    found = over_lambda(-lam * x**2 / 2 + x**6 / 6)
+    assert kinds(found) == ["pitchfork"]
+    for arm in (b for b in found if np.ptp(b.q) > 0.1):
+        np.testing.assert_allclose(arm.q[:, 0] ** 4, arm.parameter, atol=1e-10)
+
+
+def test_two_degrees_of_freedom_and_secondary_branches():
+    """V = −λ(x² + y²)/2 + x⁴/4 + y⁴/4 + y²/4: nine branches, four pitchforks."""
+    x, y = small.coordinates("x y")
+    (lam,) = small.symbols("lam")
+    potential = -lam * (x**2 + y**2) / 2 + x**4 / 4 + y**4 / 4 + y**2 / 4
+    kinetic, region = (x.diff() ** 2 + y.diff() ** 2) / 2, {"x": (-2.0, 2.0), "y": (-2.0, 2.0)}
+    case = small.Case("two", [x, y], kinetic, potential, {}, region, kinetic / 10)
+    found = ed.continue_equilibria(case.eom, {}, "lam", (-1.0, 1.3), bounds=region)
+    assert kinds(found) == ["pitchfork"] * 4
+    at = sorted((round(p.parameter, 9), *np.round(p.q, 6)) for p in found.points)
+    root = round(math.sqrt(0.5), 6)
+    assert at == [(0.0, 0.0, 0.0), (0.5, -root, 0.0), (0.5, 0.0, 0.0), (0.5, root, 0.0)]
+    assert_all_are_equilibria(case, found)
+    assert_no_branch_twice(found)
+    for value in (-0.5, 0.25, 1.1):  # as many as there are zeros
+        expected = {(-0.5): 1, 0.25: 3, 1.1: 9}[value]
+        crossings = sum(int(np.sum(np.diff(np.sign(b.parameter - value)) != 0)) for b in found)
+        assert crossings == expected == len(ed.equilibria(case.eom, {"lam": value}, region))
+
+
+# ---------------------------------------------------------------- mechanical systems
+
+
+def test_folds_of_the_snap_through_in_closed_form():
+    """S02 under a force: 2 k y (1 − L_0/√(b² + y²)) + m g = P turns at (b² + y²)³ᐟ² = L_0 b²."""
+    case = small.snap_through()
+    v = case.values
+    found = ed.continue_equilibria(case.eom, v, "P", (-12.0, 12.0), bounds={"y": (-0.05, 0.05)})
+    y = math.sqrt((v["L_0"] * v["b"] ** 2) ** (2 / 3) - v["b"] ** 2)
+    force = 2 * v["k"] * y * (1 - v["L_0"] / math.sqrt(v["b"] ** 2 + y**2))
+    expected = sorted([v["m"] * v["g"] + force, v["m"] * v["g"] - force])
+    assert kinds(found) == ["fold", "fold"]
+    np.testing.assert_allclose(sorted(p.parameter for p in found.points), expected, rtol=1e-10)
+    np.testing.assert_allclose(sorted(p.q[0] for p in found.points), [-y, y], rtol=1e-7)
+    (branch,) = found
+    inner = np.abs(np.abs(branch.q[:, 0]) - y) > 1e-6
+    np.testing.assert_array_equal(branch.stable[inner], (np.abs(branch.q[:, 0]) > y)[inner])
+    assert_all_are_equilibria(case, found)
+
+
+def test_bead_on_a_hoop_goes_all_the_way_around():
+    """The upright position lies on the seam of the region and is one branch all the same."""
+    case = small.hoop()
+    found = ed.continue_equilibria(case.eom, case.values, "Omega", (0.0, 15.0))
+    (point,) = found.points
+    assert abs(point.parameter - math.sqrt(9.81 / 0.3)) < 1e-8
+    assert len(found) == 4
+    upright = [b for b in found if np.min(np.cos(b.q)) < -0.999]
+    assert len(upright) == 1
+    assert not upright[0].stable.any()
+    for arm in (b for b in found if np.ptp(b.q) > 0.1):
+        np.testing.assert_allclose(np.cos(arm.q[:, 0]), 9.81 / (0.3 * arm.parameter**2), atol=1e-8)
+
+
+def test_seismometer_buckles_when_its_flexure_gets_soft():
+    case = small.seismometer()
+    found = ed.continue_equilibria(case.eom, case.values, "k_f", (0.8, 1.2), bounds={"theta": (-1.5, 1.5)})
+    (point,) = found.points
+    assert point.kind == "pitchfork"
+    np.testing.assert_allclose(point.parameter, 0.5 * 9.81 * 0.2, rtol=1e-10)
+    assert_all_are_equilibria(case, found)
+    assert_no_branch_twice(found)
+
+
+def test_crane_over_its_parameters_keeps_its_two_positions():
+    crane = ed.systems.load(7)
+    for name in ("L", "m", "c_x"):
+        low, high = 0.5 * crane.values()[name], 2.0 * crane.values()[name]
+        found = ed.continue_equilibria(
+            crane.equations, crane.values(), name, (low, high), bounds=crane.bounds
+        )
+        assert len(found) == 2
+        assert found.points == ()
+        assert sorted(b.stable.all() for b in found) == [False, True]
+        assert all(sorted(b.parameter[[0, -1]]) == [low, high] for b in found)
+
+
+def test_steady_motions_over_a_force_that_is_solved_for():
+    """The crane accelerated at x'' = 1: tan θ = −a/g over g, and the force does not depend on it."""
+    crane = ed.systems.load(7)
+    options = {"bounds": {"theta": (-1.5, 1.5)}, "accelerations": {"x": 1.0}, "free": ["F"]}
+    values = crane.values(c_x=0)
+    found = ed.continue_equilibria(
+        crane.equations,
+        values,
+        "g",
+        (5.0, 15.0),
+        **{**options, "bounds": {"theta": (-1.5, 1.5), "F": (0.0, 1e4)}},
+    )
+    (branch,) = found
+    np.testing.assert_allclose(np.tan(branch.q[:, 1]), -1.0 / branch.parameter, atol=1e-9)
+    assert branch.stable.all()
+
+
+def test_drive_train_over_the_wind():
+    """Rates that go together are followed together."""
+    case = small.drive_train()
+    found = ed.continue_equilibria(case.eom, case.values, "v", (6.0, 20.0), bounds=case.bounds)
+    (branch,) = found
+    assert branch.stable.all()
+    for i in (0, 20, -1):
+        (e,) = ed.equilibria(case.eom, {**case.values, "v": float(branch.parameter[i])}, case.bounds)
+        np.testing.assert_allclose(branch.q[i], e.q, rtol=1e-9)
+    with pytest.raises(ed.EngdynError, match="N changes which motion is neutral"):
+        ed.continue_equilibria(case.eom, case.values, "N", (60.0, 90.0), bounds=case.bounds)
+
+
+def test_half_car_over_its_load():
+    car = ed.systems.load(23)
+    found = ed.continue_equilibria(car.equations, car.values(), "m_s", (400.0, 1000.0), bounds=car.bounds)
+    (branch,) = found
+    assert len(np.unique(branch.parameter)) == len(branch.parameter)
+    assert np.all(np.diff(branch.q[:, 0]) * np.diff(branch.parameter) < 0)  # more load, more sag
+    for i in (0, -1):
+        (e,) = car.equilibria({"m_s": float(branch.parameter[i])})
+        np.testing.assert_allclose(branch.q[i], e.q, atol=1e-10)
+
+
+# ---------------------------------------------------------------- what is shown and refused
+
+
+def test_representations(governor):
+    lines = repr(governor).splitlines()
+    assert lines[0] == "3 branches over Omega"
+    assert any("partly stable" in line for line in lines)
+    assert lines[-1].startswith("  pitchfork at 11.7192")
+    assert governor.coordinates == ("theta",)
+    assert governor.range == (5.0, 30.0)
+
+
+@pytest.mark.parametrize(
+    ("parameter", "range", "message"),
+    [
+        ("omega", (5.0, 30.0), "unknown parameter 'omega'"),
+        ("Omega", (30.0, 5.0), "smaller one first"),
+        ("Omega", (5.0, 5.0), "smaller one first"),
+        ("Omega", (5.0, math.inf), "finite"),
+        ("Omega", (math.nan, 30.0), "finite"),
+        ("Omega", 5.0, r"give \(first, last\)"),
+        ("Omega", ("slow", "fast"), r"give \(first, last\)"),
+    ],
+)
+def test_bad_arguments_are_refused(parameter, range, message):
+    with pytest.raises(ed.EngdynError, match=message):
+        ed.continue_equilibria(GOVERNOR.equations, VALUES, parameter, range, bounds=GOVERNOR.bounds)
+
+
+def test_missing_values_and_other_models_are_refused():
+    with pytest.raises(ed.EngdynError, match="lacks the parameters"):
+        ed.continue_equilibria(GOVERNOR.equations, {"m": 1.0}, "Omega", (5.0, 30.0), bounds=GOVERNOR.bounds)
+    with pytest.raises(ed.EngdynError, match="give EquationsOfMotion"):
+        ed.continue_equilibria(GOVERNOR, VALUES, "Omega", (5.0, 30.0), bounds=GOVERNOR.bounds)
