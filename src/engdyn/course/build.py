@@ -18,7 +18,7 @@ from pathlib import Path
 
 from ..errors import EngdynError
 from .execution import NotebookFailure, execute, read_notebook, stale_reason, write_notebook
-from .exercises import out_of_step, write_student_copy
+from .student_copies import out_of_step, write_student_copy
 
 __all__ = ["build", "check", "course_notebooks", "main"]
 
