@@ -10,7 +10,7 @@ import pytest
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 from nbgrader.nbgraderformat import MetadataValidator
 
-from engdyn.course import build, execution, exercises
+from engdyn.course import build, execution, student_copies
 
 CHECKOUT = Path(__file__).resolve().parents[2]
 SOLUTIONS = sorted((CHECKOUT / "solutions").glob("*.ipynb"))
@@ -63,7 +63,7 @@ def made_up_solutions():
 def test_student_copy_of_every_kind_of_cell():
     solution = made_up_solutions()
     before = copy.deepcopy(solution)
-    student = exercises.student_copy(solution)
+    student = student_copies.student_copy(solution)
     assert solution == before
     assert [cell.id for cell in student.cells] == ["title", "period", "matrices", "energy", "essay"]
     assert student.cells[1].source == "length = 1.25\nanswer = ...\nprint(answer)"
@@ -71,16 +71,16 @@ def test_student_copy_of_every_kind_of_cell():
     assert student.cells[3].source == "def kinetic_energy(v):\n    return ..."
     assert student.cells[4].source == "*Your answer:*"
     assert student.cells[1].metadata == GRADED
-    assert exercises.leaks(solution, student) == []
+    assert student_copies.leaks(solution, student) == []
 
 
 def test_nbgrader_accepts_the_metadata():
-    MetadataValidator().validate_nb(exercises.student_copy(made_up_solutions()))
+    MetadataValidator().validate_nb(student_copies.student_copy(made_up_solutions()))
 
 
 def test_an_empty_stub_leaves_nothing_and_gives_nothing_away():
     source = "total = 0\n### BEGIN SOLUTION\n### STUB:\ntotal = 1234567890\n### END SOLUTION"
-    student = exercises.student_copy(new_notebook(cells=[new_code_cell(source)]))
+    student = student_copies.student_copy(new_notebook(cells=[new_code_cell(source)]))
     assert student.cells[0].source == "total = 0"
 
 
@@ -99,18 +99,18 @@ def test_an_empty_stub_leaves_nothing_and_gives_nothing_away():
     ],
 )
 def test_markers_that_do_not_fit_are_refused(source, message):
-    with pytest.raises(exercises.SolutionMarkerError, match=message):
-        exercises.student_copy(new_notebook(cells=[new_code_cell(source)]))
+    with pytest.raises(student_copies.SolutionMarkerError, match=message):
+        student_copies.student_copy(new_notebook(cells=[new_code_cell(source)]))
 
 
 def test_leaks_are_found_in_cells_and_in_outputs_whatever_the_spaces():
     solution = made_up_solutions()
-    student = exercises.student_copy(solution)
+    student = student_copies.student_copy(solution)
     student.cells[0].source += "\nHint: M=[[2.0,0.0],\n [0.0,1.0]]"
     output = nbformat.v4.new_output("stream", text="    return 0.5*3.0*v**2\n")
     student.cells[1].outputs = [output]
     student.cells[4].source = "The period follows from the linearized equation."
-    assert sorted(exercises.leaks(solution, student)) == [
+    assert sorted(student_copies.leaks(solution, student)) == [
         "M = [[2.0, 0.0], [0.0, 1.0]]",
         "The period follows from the linearized equation.",
         "return 0.5 * 3.0 * v**2",
@@ -120,7 +120,7 @@ def test_leaks_are_found_in_cells_and_in_outputs_whatever_the_spaces():
 def test_short_solution_lines_are_no_leak():
     source = "### BEGIN SOLUTION\nanswer = 1.5\n### END SOLUTION"  # 10 characters without spaces
     solution = new_notebook(cells=[new_code_cell(source), new_markdown_cell("So answer = 1.5?")])
-    assert exercises.leaks(solution, exercises.student_copy(solution)) == []
+    assert student_copies.leaks(solution, student_copies.student_copy(solution)) == []
 
 
 def test_a_copy_that_would_give_the_solution_away_is_not_written(tmp_path):
@@ -129,8 +129,8 @@ def test_a_copy_that_would_give_the_solution_away_is_not_written(tmp_path):
     (tmp_path / "solutions").mkdir()
     (tmp_path / "exercises").mkdir()
     nbformat.write(solution, tmp_path / "solutions" / "04_x.ipynb")
-    with pytest.raises(exercises.SolutionMarkerError, match="would hold lines of the solution"):
-        exercises.write_student_copy(tmp_path / "solutions/04_x.ipynb", tmp_path / "exercises/04_x.ipynb")
+    with pytest.raises(student_copies.SolutionMarkerError, match="would hold lines of the solution"):
+        student_copies.write_student_copy(tmp_path / "solutions/04_x.ipynb", tmp_path / "exercises/04_x.ipynb")
     assert not (tmp_path / "exercises" / "04_x.ipynb").exists()
 
 
@@ -170,9 +170,9 @@ def test_the_students_copy_is_in_step_and_gives_nothing_away(path):
     assert build.check(path) == []
     solution = execution.read_notebook(path)
     student = execution.read_notebook(build.student_of(path))
-    hidden = [line for line in exercises.solution_lines(solution) if line.strip()]
+    hidden = [line for line in student_copies.solution_lines(solution) if line.strip()]
     assert hidden, "a solutions notebook without a single solution line"
-    assert exercises.leaks(solution, student) == []
+    assert student_copies.leaks(solution, student) == []
     MetadataValidator().validate_nb(solution)
     MetadataValidator().validate_nb(student)
 

@@ -12,17 +12,18 @@ from typing import Any
 
 import sympy as sm
 from sympy.core.function import AppliedUndef
-from sympy.physics.vector import Vector, dynamicsymbols
+from sympy.physics.vector import Dyadic, ReferenceFrame, Vector, dynamicsymbols
 from sympy.physics.vector.printing import vlatex
 from sympy.printing.mathml import MathMLPresentationPrinter
 
-__all__ = ["equation", "formula", "vector"]
+__all__ = ["dyadic", "equation", "formula", "vector"]
 
 LONGEST = 78
 """Room of one line, in letters."""
 
+NAMES = {sm.atan: "arctan", sm.asin: "arcsin", sm.acos: "arccos", sm.log: "ln"}
 DOTS = {1: "\u02d9", 2: "\u00a8"}
-INVISIBLE = {"&InvisibleTimes;": "\u2062", "&dd;": "d", "&#xD7;": "\u00d7"}
+PLAIN = {"&InvisibleTimes;": "\u2062", "&dd;": "d", "<mo>-</mo>": "<mo>−</mo>"}
 
 
 class _Printer(MathMLPresentationPrinter):
@@ -42,17 +43,28 @@ class _Printer(MathMLPresentationPrinter):
     def _print_Function(self, expr: Any) -> Any:
         if isinstance(expr, AppliedUndef):
             return self._print(sm.Symbol(subscripted(expr.func.__name__)))
-        return self._element("mrow", self._element("mi", expr.func.__name__), *self._argument(expr))
+        name = self._element("mi", NAMES.get(expr.func, expr.func.__name__))
+        return self._element("mrow", self._space(), name, *self._argument(expr))
 
     def _argument(self, expr: Any) -> list[Any]:
+        """What a function is applied to: a single letter without parentheses; a thin space behind."""
         (argument,) = expr.args if len(expr.args) == 1 else (None,)
         if argument is not None and (argument.is_Symbol or isinstance(argument, AppliedUndef)):
-            return [self._element("mo", "\u2061"), self._element("mspace"), self._print(argument)]
+            return [self._element("mo", "\u2061"), self._space(), self._print(argument), self._space()]
         return [self._element("mo", "\u2061"), self._paren_comma_separated(*expr.args)]
+
+    def _space(self) -> Any:
+        space = self._element("mspace")
+        space.setAttribute("width", "0.17em")
+        return space
 
     def _print_Derivative(self, expr: Any) -> Any:
         order = expr.derivative_count
-        if not isinstance(expr.expr, AppliedUndef) or order not in DOTS or set(expr.variables) != {dynamicsymbols._t}:
+        if (
+            not isinstance(expr.expr, AppliedUndef)
+            or order not in DOTS
+            or set(expr.variables) != {dynamicsymbols._t}
+        ):
             return super()._print_Derivative(expr)
         name = self._print(expr.expr)
         if name.tagName == "msub":  # the dot belongs over the letter, not over its index
@@ -70,7 +82,7 @@ class _Printer(MathMLPresentationPrinter):
         if exponent.is_Integer and exponent > 1:
             if isinstance(base, sm.sin | sm.cos | sm.tan):
                 name = self._element("msup", self._element("mi", base.func.__name__), self._print(exponent))
-                return self._element("mrow", name, *self._argument(base))
+                return self._element("mrow", self._space(), name, *self._argument(base))
             if isinstance(base, AppliedUndef | sm.Derivative):
                 return self._element("msup", self._print(base), self._print(exponent))
         return super()._print_Pow(expr)
@@ -84,7 +96,7 @@ def subscripted(name: str) -> str:
 def markup(expr: Any) -> str:
     """MathML of an expression, without the surrounding element."""
     text = _Printer({"fold_short_frac": False}).doprint(sm.sympify(expr))
-    for entity, letter in INVISIBLE.items():
+    for entity, letter in PLAIN.items():
         text = text.replace(entity, letter)
     return text
 
@@ -123,7 +135,11 @@ def _lines(expr: Any) -> list[str]:
             lines, width = [*lines, ""], 0
         sign = "<mo>−</mo>" if negative else ("<mo>+</mo>" if i else "")
         shown = -term if negative else term
-        inner = f"<mrow><mo>(</mo>{markup(shown)}<mo>)</mo></mrow>" if negative and shown.is_Add else markup(shown)
+        inner = (
+            f"<mrow><mo>(</mo>{markup(shown)}<mo>)</mo></mrow>"
+            if negative and shown.is_Add
+            else markup(shown)
+        )
         lines[-1] += sign + inner
         width += size
     return lines
@@ -132,7 +148,11 @@ def _lines(expr: Any) -> list[str]:
 def _width(term: Any) -> int:
     """About how many letters a term fills: its leaves and its plus signs."""
     leaves = [a for a in sm.preorder_traversal(term) if not a.args or isinstance(a, AppliedUndef)]
-    names = sum(3 for a in sm.preorder_traversal(term) if isinstance(a, sm.Function) and not isinstance(a, AppliedUndef))
+    names = sum(
+        3
+        for a in sm.preorder_traversal(term)
+        if isinstance(a, sm.Function) and not isinstance(a, AppliedUndef)
+    )
     plus = sum(2 * (len(a.args) - 1) for a in sm.preorder_traversal(term) if a.is_Add)
     return len(leaves) + names + plus
 
@@ -143,12 +163,31 @@ def vector(value: Vector) -> str:
     latex: list[str] = []
     for components, frame in value.args:
         for component, axis in zip(components, "xyz", strict=True):
-            if component == 0:
-                continue
-            hat = f'<msub><mover accent="true"><mi mathvariant="bold">{html.escape(frame.name.lower())}</mi><mo>^</mo></mover>'
-            unit = f"{hat}<mi>{axis}</mi></msub>"
-            parts.append(_component(component, unit, first=not parts))
-            latex.append(f"\\left({vlatex(component)}\\right) \\mathbf{{\\hat{{{frame.name.lower()}}}_{axis}}}")
+            if component != 0:
+                parts.append(_component(component, unit_vector(frame, axis), first=not parts))
+                latex.append(
+                    rf"\left({vlatex(component)}\right) \mathbf{{\hat{{{frame.name.lower()}}}}}_{axis}"
+                )
+    return _math("".join(parts) or "<mn>0</mn>", " + ".join(latex) or "0")
+
+
+def unit_vector(frame: ReferenceFrame, axis: str) -> str:
+    """MathML of a unit vector."""
+    letter = f'<mi mathvariant="bold">{html.escape(frame.name.lower())}</mi>'
+    return f'<msub><mover accent="true">{letter}<mo>^</mo></mover><mi>{axis}</mi></msub>'
+
+
+def dyadic(value: Dyadic) -> str:
+    """An inertia dyadic by its components."""
+    parts, latex = [], []
+    for measure, left, right in value.args:
+        units = ""
+        for side in (left, right):
+            components, frame = side.args[0]
+            axis = "xyz"[[bool(c) for c in components].index(True)]
+            units += unit_vector(frame, axis)
+        parts.append(_component(measure, units, first=not parts))
+        latex.append(vlatex(measure))
     return _math("".join(parts) or "<mn>0</mn>", " + ".join(latex) or "0")
 
 
@@ -160,8 +199,3 @@ def _component(component: Any, unit: str, first: bool) -> str:
         return sign + unit
     shown = f"<mrow><mo>(</mo>{markup(size)}<mo>)</mo></mrow>" if size.is_Add else markup(size)
     return f"{sign}{shown}<mo>\u2062</mo>{unit}"
-
-
-def listing(items: Sequence[str]) -> str:
-    """Formulas one below the other."""
-    return "".join(f'<div class="line">{item}</div>' for item in items)

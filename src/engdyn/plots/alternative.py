@@ -99,10 +99,20 @@ def png(drawn: Axes | Figure, dpi: float = DPI) -> bytes:
     return stream.getvalue()
 
 
+def _small(picture: bytes) -> bytes:
+    """The same PNG with a palette: a quarter of the size, which notebooks in a repository are grateful for."""
+    from PIL import Image
+
+    stream = io.BytesIO()
+    colors = Image.open(io.BytesIO(picture)).convert("RGB")
+    colors.quantize(128, dither=Image.Dither.NONE).save(stream, "PNG", optimize=True)
+    return stream.getvalue()
+
+
 def bundle(drawn: Axes | Figure, dpi: float = DPI) -> tuple[dict[str, str], dict[str, dict[str, str]]]:
     """Return a picture as Jupyter's MIME bundle and metadata: PNG (base64) beside its alternative text."""
     words = alt(drawn)
-    data = {"image/png": base64.b64encode(png(drawn, dpi)).decode("ascii"), "text/plain": words}
+    data = {"image/png": base64.b64encode(_small(png(drawn, dpi))).decode("ascii"), "text/plain": words}
     return data, {"image/png": {"alt": words}}
 
 

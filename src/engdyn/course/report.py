@@ -1,0 +1,207 @@
+"""The whole sequence on one system, as one HTML file that needs nothing else: ``engdyn analyze KEY``."""
+
+from __future__ import annotations
+
+import html
+import os
+import tempfile
+from collections.abc import Callable
+from importlib import resources
+from pathlib import Path
+from string import Template
+from typing import Any
+
+import engdyn
+from engdyn.analysis.linear import linearize
+from engdyn.analysis.results import EquilibriumSet
+from engdyn.analysis.stability import Stability, stability
+from engdyn.course import report_pictures as pictures
+from engdyn.course import report_sections as sections
+from engdyn.errors import EngdynError
+from engdyn.modeling.equality import Proof, prove_equal
+from engdyn.system import System
+
+__all__ = ["report", "write_report"]
+
+Progress = Callable[[str], Any]
+
+
+def write_report(
+    key: str | int | System,
+    out: str | Path,
+    force: bool = False,
+    progress: Progress | None = None,
+) -> Path:
+    """Take a system through the whole sequence and write one self-contained HTML file.
+
+    Parameters
+    ----------
+    key : str, int or System
+        ``"gantry_crane"``, ``"S07"`` or ``7``; or a system of your own.
+    out : str or Path
+        The file to write, in a folder that exists.
+    force : bool
+        Replace the file where it exists.
+    progress : callable, optional
+        Called with a short message before each step.
+
+    Returns
+    -------
+    Path
+        Where the report is.
+
+    Raises
+    ------
+    UnknownSystemError
+        No such system.
+    EngdynError
+        The file exists and `force` is not given; its folder does not exist; it is a folder.
+
+    Notes
+    -----
+    All parts of the course.  Nothing is left half-written: the file appears when it is complete.
+    """
+    system = key if isinstance(key, System) else engdyn.systems.load(key)
+    target = _checked_target(out, force)
+    text = report(system, progress)
+    descriptor, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
+    try:
+        with os.fdopen(descriptor, "w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+        os.chmod(name, 0o644)
+        os.replace(name, target)
+    except BaseException:
+        Path(name).unlink(missing_ok=True)
+        raise
+    return target
+
+
+def _checked_target(out: str | Path, force: bool) -> Path:
+    target = Path(out)
+    if target.is_dir():
+        raise EngdynError(f"{target} is a folder: name a file in it, for example {target / 'report.html'}")
+    if not target.absolute().parent.is_dir():
+        raise EngdynError(
+            f"the folder {target.absolute().parent} does not exist: make it, or write elsewhere"
+        )
+    if target.exists() and not force:
+        raise EngdynError(f"{target} exists and was not touched: name another file, or give force=True")
+    return target
+
+
+def report(system: System, progress: Progress | None = None) -> str:
+    """The report as HTML text; the same text for the same system, whenever it is made.
+
+    Parameters
+    ----------
+    system : System
+    progress : callable, optional
+        Called with a short message before each step.
+    """
+    tell = progress or (lambda message: None)
+    parts: list[tuple[str, str]] = [
+        ("The system", _description(system)),
+        ("Quantities", sections.parameters(system)),
+    ]
+    tell("deriving the equations of motion")
+    lagrange = system.equations
+    newton = _newton(system)
+    if newton is not None:
+        parts.append(("Free bodies", sections.free_bodies(system.free_bodies(), system.frame)))
+        parts.append(("Equations of motion from the free bodies (Newton–Euler)", sections.equations(newton)))
+    energies = sections.energies(system) + sections.paragraph("Lagrange's equations of these energies:")
+    parts.append(
+        ("Equations of motion from the energies (Lagrange)", energies + sections.equations(lagrange))
+    )
+    tell("proving that both derivations agree")
+    proof = prove_equal(newton, lagrange) if newton is not None else None
+    if proof is not None:
+        parts.append(("Are both the same?", sections.proof_verdict(proof)))
+    tell("looking for all equilibria")
+    found = system.equilibria()
+    judged = [stability(linearize(lagrange, e)) for e in found]
+    if newton is not None and newton.reactions:
+        parts.append(("Reactions", sections.reactions(newton, found)))
+    parts.append(("Equilibria and steady motions", _equilibria(system, found, judged, tell)))
+    parts.append(("Stability of small motion", sections.eigenvalue_tables(judged)))
+    tell("following the equilibria over a parameter")
+    parts.append(("Equilibria over a parameter", _branches(system)))
+    return _page(system, [part for part in parts if part[1]], proof, found, judged)
+
+
+def _newton(system: System) -> Any:
+    """The equations from the free bodies; None where a system has none."""
+    try:
+        system.free_bodies()
+    except EngdynError:
+        return None
+    return system.newton()
+
+
+def _description(system: System) -> str:
+    text = sections.paragraph(system.description) if system.description else ""
+    if system.measured:
+        text += sections.paragraph(f"What one would measure: {system.measured}.", note=True)
+    return text + pictures.drawing_figure(system)
+
+
+def _equilibria(system: System, found: EquilibriumSet, judged: list[Stability], tell: Progress) -> str:
+    text = sections.paragraph("With the default parameters, and all inputs zero.")
+    text += sections.equilibrium_table(system, found, judged)
+    tell("drawing the equilibria")
+    verdicts = [each.verdict for each in judged]
+    return text + pictures.poses_figure(system, found, verdicts) + pictures.potential_figure(system, found)
+
+
+def _branches(system: System) -> str:
+    question = pictures.branch_question(system)
+    if question is None:
+        return ""
+    parameter, changes = question
+    if changes:
+        text = f"{parameter.name} is the first parameter that changes number or stability of the equilibria."
+    else:
+        text = (
+            "No parameter, between half and twice its default, changes number or stability of the equilibria; "
+            f"shown is {parameter.name}."
+        )
+    figure = pictures.branch_figure(system, parameter)
+    return sections.paragraph(text) + figure if figure else ""
+
+
+def _page(
+    system: System,
+    parts: list[tuple[str, str]],
+    proof: Proof | None,
+    found: EquilibriumSet,
+    judged: list[Stability],
+) -> str:
+    listed = "".join(
+        f'<li><a href="#s{i}">{html.escape(title)}</a></li>' for i, (title, _) in enumerate(parts, 1)
+    )
+    body = _summary(system, proof, found, judged) + f'<nav aria-label="Contents"><ol>{listed}</ol></nav>'
+    for i, (title, text) in enumerate(parts, 1):
+        heading = f'<h2 id="s{i}"><span class="number">{i}</span>{html.escape(title)}</h2>'
+        body += f"\n<section>{heading}\n{text}</section>"
+    template = Template(resources.files("engdyn.course").joinpath("report_template.html").read_text("utf-8"))
+    label = f"S{system.number:02d} · {system.key}" if system.number else system.key
+    return template.substitute(
+        version=engdyn.__version__,
+        title=html.escape(system.title),
+        label=html.escape(label),
+        subtitle=html.escape(system.field),
+        body=body,
+        footer=f"Made by <code>engdyn analyze</code>, engdyn {engdyn.__version__}. SI units, angles in radians.",
+    )
+
+
+def _summary(system: System, proof: Proof | None, found: EquilibriumSet, judged: list[Stability]) -> str:
+    free = len(system.coordinates) - len(system.constraints)
+    entries = [("degrees of freedom", str(free))]
+    if proof is not None:
+        entries.append(("Newton–Euler = Lagrange", proof.verdict))
+    count = f"{len(found)}{', certified to be all' if found.certified else ', not certified'}"
+    entries.append(("equilibria", count))
+    entries.append(("of these stable", str(sum(each.stable for each in judged))))
+    cells = "".join(f"<div><dt>{name}</dt><dd>{value}</dd></div>" for name, value in entries)
+    return f'<dl class="summary">{cells}</dl>'
