@@ -42,11 +42,15 @@ def timed(make: Callable[[], Model], rounds: int) -> dict[str, float]:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run and print the table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--links", type=int, default=5, help="longest chain on the cart")
     options = parser.parse_args(arguments)
-    warnings.filterwarnings("ignore", message="(?s).*automatically calculated based on point")  # of KanesMethod
+    warnings.filterwarnings(
+        "ignore", message="(?s).*automatically calculated based on point"
+    )  # of KanesMethod
     packages = ", ".join(f"{name} {version(name)}" for name in ("engdyn", "sympy", "python-flint"))
     print(f"Python {platform.python_version()}, {packages}; medians of {options.rounds} rounds\n")
     head = f"{'system':26}" + "".join(f"{name + ' [ms]':>22}" for name in TOOLS)

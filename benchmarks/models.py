@@ -52,7 +52,7 @@ def catalogue_system(key: str) -> Model:
 
 
 def cart_with_links(n: int) -> Model:
-    """A cart on a rail with n point masses hanging from it in a chain, absolute angles, a force on the cart."""
+    """A cart on a rail with n point masses hanging in a chain, absolute angles, a force on the cart."""
     q = dynamicsymbols(f"q:{n + 1}")
     F = dynamicsymbols("F")
     g, *masses = sm.symbols(f"g m:{n + 1}", positive=True)
@@ -152,7 +152,9 @@ def lagrangian(model: Model) -> LagrangesMethod:
             frame = ReferenceFrame(f"D{i}")
             frame.set_ang_vel(model.frame, q.diff(t) * model.frame.z)
             loads.append((frame, Q * model.frame.z))
-    method = LagrangesMethod(model.kinetic - model.potential, model.coordinates, forcelist=loads, frame=model.frame)
+    method = LagrangesMethod(
+        model.kinetic - model.potential, model.coordinates, forcelist=loads, frame=model.frame
+    )
     method.form_lagranges_equations()
     return method
 
@@ -162,5 +164,6 @@ def engdyn(model: Model) -> ed.Proof:
     a = ed.newton_euler(model.free_bodies, model.coordinates, model.frame, model.unknowns)
     b = ed.lagrange(model.kinetic, model.potential, model.coordinates, model.dissipation, model.forces)
     proof = ed.prove_equal(a, b)
-    assert proof and b.mass_matrix.shape[0] == b.forcing.shape[0]
+    assert proof
+    assert b.mass_matrix.shape[0] == b.forcing.shape[0]
     return proof

@@ -1,4 +1,4 @@
-"""What a system is described by: parameters, coordinates and inputs, each with unit and meaning.  Appendix A."""
+"""What a system is described by: parameters, coordinates and inputs.  Appendix A."""
 
 from __future__ import annotations
 
@@ -42,7 +42,11 @@ class Parameter:
 
     def __post_init__(self) -> None:
         if isinstance(self.symbol, str):
-            assumptions = {"positive": {"positive": True}, "nonnegative": {"nonnegative": True}, "any": {"real": True}}
+            assumptions = {
+                "positive": {"positive": True},
+                "nonnegative": {"nonnegative": True},
+                "any": {"real": True},
+            }
             object.__setattr__(self, "symbol", sm.Symbol(self.symbol, **assumptions[self.admissible]))
 
     @property
@@ -53,10 +57,14 @@ class Parameter:
     def check(self, value: Any) -> float:
         """The value as an SI float, or a ParameterError that says what is wrong with it."""
         number = to_si(value, self.unit, f"parameter {self.name} ({self.meaning})")
-        bad = (self.admissible == "positive" and number <= 0) or (self.admissible == "nonnegative" and number < 0)
+        bad = (self.admissible == "positive" and number <= 0) or (
+            self.admissible == "nonnegative" and number < 0
+        )
         if bad:
             wanted = "greater than zero" if self.admissible == "positive" else "zero or greater"
-            raise ParameterError(f"parameter {self.name} ({self.meaning}) is {number:g} {self.unit}: it must be {wanted}")
+            raise ParameterError(
+                f"parameter {self.name} ({self.meaning}) is {number:g} {self.unit}: it must be {wanted}"
+            )
         return number
 
 

@@ -112,7 +112,9 @@ class System:
         """Free-body diagrams, one per body."""
         bodies = self._free_bodies() if callable(self._free_bodies) else self._free_bodies
         if not bodies:
-            raise EngdynError(f"the system {self.title!r} has no free bodies: give free_bodies, frame and unknowns")
+            raise EngdynError(
+                f"the system {self.title!r} has no free bodies: give free_bodies, frame and unknowns"
+            )
         return list(bodies)
 
     def shapes(self, q: Any, values: Mapping[str, float] | None = None) -> list:
@@ -185,7 +187,11 @@ class System:
         return equilibria(self.equations, values, self.bounds, inputs, **steady)
 
     def branches(
-        self, parameter: str, range: tuple[float, float], values: Mapping[str, float] | None = None, **inputs: Any
+        self,
+        parameter: str,
+        range: tuple[float, float],
+        values: Mapping[str, float] | None = None,
+        **inputs: Any,
     ) -> BranchSet:
         """Equilibria and steady motions over one parameter, within :attr:`bounds`.
 
@@ -227,7 +233,9 @@ class System:
             if name not in known:
                 near = difflib.get_close_matches(name, known, n=1, cutoff=0.3)
                 hint = f"did you mean {near[0]!r}? " if near else ""
-                raise EngdynError(f"unknown input {name!r}: {hint}{self.title} has {', '.join(known) or 'none'}")
+                raise EngdynError(
+                    f"unknown input {name!r}: {hint}{self.title} has {', '.join(known) or 'none'}"
+                )
 
     @cached_property
     def equations(self) -> EquationsOfMotion:
@@ -255,7 +263,8 @@ class System:
         inputs = "; ".join(f"<code>{i.name}</code> [{i.unit}]: {i.meaning}" for i in self.inputs) or "none"
         number = f"S{self.number:02d} " if self.number else ""
         return (
-            f"<h4>{number}{self.title}</h4><p>{self.description}</p><p>Coordinates: {coordinates}<br>Inputs: {inputs}</p>"
+            f"<h4>{number}{self.title}</h4><p>{self.description}</p>"
+            f"<p>Coordinates: {coordinates}<br>Inputs: {inputs}</p>"
             "<table><thead><tr><th>symbol</th><th>meaning</th><th>default</th><th>unit</th></tr></thead>"
             f"<tbody>{rows}</tbody></table>"
         )

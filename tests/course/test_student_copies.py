@@ -130,7 +130,9 @@ def test_a_copy_that_would_give_the_solution_away_is_not_written(tmp_path):
     (tmp_path / "exercises").mkdir()
     nbformat.write(solution, tmp_path / "solutions" / "04_x.ipynb")
     with pytest.raises(student_copies.SolutionMarkerError, match="would hold lines of the solution"):
-        student_copies.write_student_copy(tmp_path / "solutions/04_x.ipynb", tmp_path / "exercises/04_x.ipynb")
+        student_copies.write_student_copy(
+            tmp_path / "solutions/04_x.ipynb", tmp_path / "exercises/04_x.ipynb"
+        )
     assert not (tmp_path / "exercises" / "04_x.ipynb").exists()
 
 

@@ -13,7 +13,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import engdyn as ed
-from engdyn.widgets import equilibrium_explorer as module
 from engdyn.widgets import explorer as frame
 from engdyn.widgets.equilibrium_explorer import find, slider
 

@@ -7,7 +7,6 @@ parentheses, functions of time by their names alone.
 from __future__ import annotations
 
 import html
-from collections.abc import Sequence
 from typing import Any
 
 import sympy as sm
@@ -106,9 +105,9 @@ def formula(expr: Any) -> str:
     return _math(markup(expr), vlatex(expr))
 
 
-def _math(body: str, latex: str, attributes: str = "") -> str:
+def _math(body: str, latex: str) -> str:
     alternative = html.escape(latex, quote=True)
-    return f'<math{attributes} alttext="{alternative}" title="{alternative}"><mrow>{body}</mrow></math>'
+    return f'<math alttext="{alternative}" title="{alternative}"><mrow>{body}</mrow></math>'
 
 
 def equation(left: Any, right: Any) -> str:
@@ -119,8 +118,8 @@ def equation(left: Any, right: Any) -> str:
         rows = [[rows[0][2], "<mo>=</mo>", rows[1][2]], *rows[2:]]
     cells = "".join("<mtr>" + "".join(f"<mtd>{cell}</mtd>" for cell in row) + "</mtr>" for row in rows)
     latex = f"{vlatex(left)} = {vlatex(right)}"
-    body = f'<mtable class="aligned" displaystyle="true">{cells}</mtable>'
-    return f'<div class="formula">{_math(body, latex, " display=" + chr(34) + "block" + chr(34))}</div>'
+    body = f'<mtable displaystyle="true">{cells}</mtable>'
+    return f'<div class="formula">{_math(body, latex)}</div>'
 
 
 def _lines(expr: Any) -> list[str]:

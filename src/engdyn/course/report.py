@@ -108,7 +108,8 @@ def report(system: System, progress: Progress | None = None) -> str:
     newton = _newton(system)
     if newton is not None:
         parts.append(("Free bodies", sections.free_bodies(system.free_bodies(), system.frame)))
-        parts.append(("Equations of motion from the free bodies (Newton–Euler)", sections.equations(newton)))
+        counted = sections.balances(newton) + sections.equations(newton)
+        parts.append(("Equations of motion from the free bodies (Newton–Euler)", counted))
     energies = sections.energies(system) + sections.paragraph("Lagrange's equations of these energies:")
     parts.append(
         ("Equations of motion from the energies (Lagrange)", energies + sections.equations(lagrange))
@@ -158,15 +159,14 @@ def _branches(system: System) -> str:
     if question is None:
         return ""
     parameter, changes = question
+    name = f"<code>{html.escape(parameter.name)}</code>"
     if changes:
-        text = f"{parameter.name} is the first parameter that changes number or stability of the equilibria."
+        text = f"{name} is the first parameter that changes number or stability of the equilibria."
     else:
-        text = (
-            "No parameter, between half and twice its default, changes number or stability of the equilibria; "
-            f"shown is {parameter.name}."
-        )
+        text = "No parameter, between half and twice its default, changes number or stability of the "
+        text += f"equilibria; shown is {name}."
     figure = pictures.branch_figure(system, parameter)
-    return sections.paragraph(text) + figure if figure else ""
+    return f"<p>{text}</p>{figure}" if figure else ""
 
 
 def _page(
@@ -191,7 +191,7 @@ def _page(
         label=html.escape(label),
         subtitle=html.escape(system.field),
         body=body,
-        footer=f"Made by <code>engdyn analyze</code>, engdyn {engdyn.__version__}. SI units, angles in radians.",
+        footer=f"Made by <code>engdyn analyze</code>, engdyn {engdyn.__version__}. SI units, angles in rad.",
     )
 
 

@@ -19,7 +19,7 @@ from engdyn.plots.look import new_axes
 from engdyn.quantities import Parameter
 from engdyn.system import System
 
-__all__ = ["branch_question", "drawing_figure", "branch_figure", "poses_figure", "potential_figure"]
+__all__ = ["branch_figure", "branch_question", "drawing_figure", "poses_figure", "potential_figure"]
 
 DPI = 110
 """Resolution of the pictures."""
@@ -72,7 +72,10 @@ def potential_figure(system: System, found: Sequence[Any]) -> str:
         return ""
     ax = potential_energy(system, None, over[0], over[1] if len(over) > 1 else None, list(found), new_axes())
     what = "potential energy" if "T" not in name else "effective potential, the centrifugal part included"
-    return _figure(ax, f"The {what}: equilibria are its stationary points, stable ones its wells.")
+    others = "" if len(system.coordinates) <= len(over) else ", the other coordinates as in equilibrium 1"
+    if not any(c.bounds is not None and c.name not in over for c in system.coordinates):
+        others = ""
+    return _figure(ax, f"The {what}{others}: equilibria are its stationary points, stable ones its wells.")
 
 
 def _coordinates_of(system: System, energy: Any, found: Sequence[Any]) -> list[str]:

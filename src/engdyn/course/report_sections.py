@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import html
+import math
+import re
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -18,10 +20,11 @@ from engdyn.errors import EngdynError
 from engdyn.modeling.equality import Proof
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.free_body import FreeBody
-from engdyn.plots.words import number, quantity
+from engdyn.plots import words
 from engdyn.system import System
 
 __all__ = [
+    "balances",
     "eigenvalue_tables",
     "energies",
     "equations",
@@ -51,8 +54,35 @@ def paragraph(text: str, note: bool = False) -> str:
 
 
 def unit(text: str) -> str:
-    """A unit for a table: no unit is a dash."""
-    return html.escape(text) if text not in ("", "-") else "–"
+    """A unit for a table: powers raised, no unit is a dash."""
+    return re.sub(r"\^(-?\d+)", r"<sup>\1</sup>", html.escape(text)) if text not in ("", "-") else "–"
+
+
+def number(value: float) -> str:
+    """Four significant digits, without a power of ten where that is readable."""
+    size = abs(value)
+    if size < 1e-12:
+        return "0"
+    if not 1e-4 <= size < 1e7:
+        return words.number(value)
+    digits = max(0, 3 - math.floor(math.log10(float(f"{size:.3e}"))))
+    text = f"{value:.{digits}f}"
+    return (text.rstrip("0").rstrip(".") if digits else text).replace("-", "−")
+
+
+def part_of_pi(value: float) -> str:
+    """An angle as a part of π where it is a simple one."""
+    twelfths = round(12 * value / math.pi)
+    if twelfths == 0 or abs(12 * value / math.pi - twelfths) > 1e-9:
+        return number(value)
+    divisor = math.gcd(twelfths, 12)
+    above, below = abs(twelfths) // divisor, 12 // divisor
+    return (
+        ("−" if twelfths < 0 else "")
+        + (f"{above}" if above > 1 else "")
+        + "π"
+        + (f"/{below}" if below > 1 else "")
+    )
 
 
 def parameters(system: System) -> str:
@@ -96,14 +126,15 @@ def parameters(system: System) -> str:
 def _interval(coordinate: Any) -> str:
     if coordinate.bounds is None:
         return "whole turn" if coordinate.kind == "angle" else "–"
-    return " … ".join(number(float(x)) for x in coordinate.bounds)
+    show = part_of_pi if coordinate.unit == "rad" else number
+    return " … ".join(show(float(x)) for x in coordinate.bounds)
 
 
 def free_bodies(bodies: Sequence[FreeBody], frame: Any) -> str:
     """Every free body with its mass and all loads."""
     text = paragraph(
-        f"Unit vectors carry the letter of their frame: {frame.name.lower()} is the inertial frame {frame.name}. "
-        "Reactions have unknown magnitudes; every load is written as the body feels it."
+        f"Unit vectors carry the letter of their frame: {frame.name.lower()} is the inertial frame "
+        f"{frame.name}. Reactions have unknown magnitudes; every load is written as the body feels it."
     )
     for body in bodies:
         kind = "particle" if isinstance(body.body, Particle) else "rigid body"
@@ -122,6 +153,15 @@ def _load(load: Any, kind: str) -> tuple[str, str, str]:
     if isinstance(load, Force):
         return f"force at {html.escape(load.point.name)}", vector(load.force), kind
     return "couple", vector(load.torque), kind
+
+
+def balances(eom: EquationsOfMotion) -> str:
+    """How the equations come about."""
+    text = "Force balances of all bodies, and moment balances about the mass centers of those that turn"
+    if not eom.reactions:
+        return paragraph(f"{text}.")
+    names = ", ".join(formula(name) for name in eom.reactions)
+    return f"<p>{text}; the reactions {names} are eliminated.</p>"
 
 
 def energies(system: System) -> str:
@@ -168,19 +208,24 @@ def reactions(eom: EquationsOfMotion, found: EquilibriumSet) -> str:
     if not len(found):
         return text
     head = ("reaction", *(f"equilibrium {i}" for i in range(1, len(found) + 1)))
-    rows = [(formula(name), *(_reaction_value(eom, name, e) for e in found)) for name in eom.reactions]
+    values = {name: [_reaction_value(eom, name, e) for e in found] for name in eom.reactions}
+    largest = max((abs(x) for row in values.values() for x in row if x is not None), default=0.0)
+    rows = []
+    for name, row in values.items():
+        shown = ["–" if x is None else number(0.0 if abs(x) < 1e-9 * largest else x) for x in row]
+        rows.append((formula(name), *shown))
     return text + table("Values in the equilibria [N, N m]", head, rows, right=range(1, len(head)))
 
 
-def _reaction_value(eom: EquationsOfMotion, name: sm.Symbol, at: Any) -> str:
+def _reaction_value(eom: EquationsOfMotion, name: sm.Symbol, at: Any) -> float | None:
     """A reaction in an equilibrium; where its formula is 0/0, the value on both sides where they agree."""
     here = _evaluate(eom, name, at, at.q)
     if here is not None:
-        return number(here)
+        return here
     moved = [_evaluate(eom, name, at, at.q + step) for step in (1e-5, -1e-5)]
     if None in moved or abs(moved[0] - moved[1]) > 1e-3 * max(1e-6, *map(abs, moved)):
-        return "–"
-    return number(float(f"{0.5 * (moved[0] + moved[1]):.4g}"))
+        return None
+    return float(f"{0.5 * (moved[0] + moved[1]):.4g}")
 
 
 def _evaluate(eom: EquationsOfMotion, name: sm.Symbol, at: Any, q: np.ndarray) -> float | None:
@@ -247,8 +292,9 @@ def _motion(e: Any, order: int) -> np.ndarray:
 
 
 def _place(x: float, coordinate: Any) -> str:
-    text = quantity("", float(x), "" if coordinate.unit != "rad" else "rad")
-    return text.removeprefix(" = ").replace(" rad", "")
+    if coordinate.unit != "rad" or abs(x) < 1e-12:
+        return number(float(x))
+    return f"{number(float(x))} ({number(round(math.degrees(x), 2))}°)"
 
 
 def _judged(verdict: Stability) -> str:

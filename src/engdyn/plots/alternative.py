@@ -100,7 +100,7 @@ def png(drawn: Axes | Figure, dpi: float = DPI) -> bytes:
 
 
 def _small(picture: bytes) -> bytes:
-    """The same PNG with a palette: a quarter of the size, which notebooks in a repository are grateful for."""
+    """The same PNG with a palette: a quarter of the size, kind to notebooks in a repository."""
     from PIL import Image
 
     stream = io.BytesIO()

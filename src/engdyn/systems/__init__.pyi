@@ -1,3 +1,4 @@
-from .library import catalogue as catalogue, load as load
+from .library import catalogue as catalogue
+from .library import load as load
 
 __all__ = ["catalogue", "load"]

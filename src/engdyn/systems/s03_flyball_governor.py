@@ -78,7 +78,9 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
     return [
         sh.Ground((-0.3 * l, foot), (0.3 * l, foot)),
         sh.Link((0.0, foot), (0.0, top)),
-        sh.MomentArrow((0.0, 0.32 * l), 0.16 * l, 0.75 * pi, 2.25 * pi, r"$\Omega$", y_axis=(0.0, 0.4), role="reference"),
+        sh.MomentArrow(
+            (0.0, 0.32 * l), 0.16 * l, 0.75 * pi, 2.25 * pi, r"$\Omega$", y_axis=(0.0, 0.4), role="reference"
+        ),
         sh.Spring((0.0, 0.0), collar, coils=9, width=0.13 * l),
         sh.Label((-0.06 * l, 0.35 * collar[1]), "$k$", (-1.0, 0.0)),
         sh.Link((-0.13 * l, flange), (0.0, flange), role="damper"),
@@ -111,20 +113,25 @@ def build() -> System:
         title="Spring-loaded flyball governor at constant speed",
         field="machines, history of control",
         description=(
-            "A vertical spindle turns at the rate Omega. Two arms of length l, pinned to the spindle axis at the fixed point "
-            "P, carry one ball (mass m) each; two links of the same length join the balls to a collar (mass M_c) that "
-            "slides on the spindle below P. theta is the angle of the arms from the downward vertical, positive outward; "
-            "negative angles, the arms crossed, keep the symmetry visible. A spring k between P and the collar is relaxed at "
-            "theta = 0; c_p lumps the damping of the pins, c_c acts between collar and spindle. F pushes the collar up."
+            "A vertical spindle turns at the rate Omega. Two arms of length l, pinned to the spindle axis "
+            "at the fixed point P, carry one ball (mass m) each; two links of the same length join the "
+            "balls to a collar (mass M_c) that slides on the spindle below P. theta is the angle of the "
+            "arms from the downward vertical, positive outward; negative angles, the arms crossed, keep "
+            "the symmetry visible. A spring k between P and the collar is relaxed at theta = 0; c_p lumps "
+            "the damping of the pins, c_c acts between collar and spindle. F pushes the collar up."
         ),
-        measured="collar position during a run-up: its deflection over the speed is the square-root branch of a pitchfork",
+        measured="collar position during a run-up: deflection over speed, the branch of a pitchfork",
         coordinates=(
-            Coordinate(theta, "rad", "arm angle from the downward vertical, outward", (-pi / 2, pi / 2), "angle"),
+            Coordinate(
+                theta, "rad", "arm angle from the downward vertical, outward", (-pi / 2, pi / 2), "angle"
+            ),
         ),
         parameters=PARAMETERS,
         inputs=(
             Input(F, "N", "force on the collar, positive up"),
-            Input(drive, "rad", "spindle angle", "drive angle", (Omega * dynamicsymbols._t, Omega, sm.S.Zero)),
+            Input(
+                drive, "rad", "spindle angle", "drive angle", (Omega * dynamicsymbols._t, Omega, sm.S.Zero)
+            ),
         ),
         kinetic_energy=m * ball_speed_squared + M_c * lift_d**2 / 2,
         potential_energy=-2 * (m + M_c) * g * l * sm.cos(theta) + k * lift**2 / 2,

@@ -5,7 +5,16 @@ from __future__ import annotations
 from math import cos, pi, sin
 
 import sympy as sm
-from sympy.physics.mechanics import Force, Particle, Point, ReferenceFrame, RigidBody, Torque, dynamicsymbols, inertia
+from sympy.physics.mechanics import (
+    Force,
+    Particle,
+    Point,
+    ReferenceFrame,
+    RigidBody,
+    Torque,
+    dynamicsymbols,
+    inertia,
+)
 
 from engdyn import shapes as sh
 from engdyn.modeling.newton import FreeBody
@@ -67,7 +76,7 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
     x, theta, L = q[0], q[1], values["L"]
     hinge = (x, 0.0)
     center = (x + L * sin(theta), -L * cos(theta))
-    wheel, rail = 0.045 * L, -0.075 * L
+    rail = -0.075 * L
     left, right = min(0.0, x) - 0.75 * L, max(0.0, x) + 0.65 * L
     across, along = 0.24 * L, 0.13 * L
     # The wind pushes the face on the right, whichever that is.
@@ -107,16 +116,19 @@ def build() -> System:
         title="Gantry crane: trolley and hanging container",
         field="cranes",
         description=(
-            "A trolley (mass M_t) runs on a horizontal rail, x positive to the right. A container (mass m, inertia J_G "
-            "about its mass center) hangs below it on a rigid, massless spreader of length L from the hinge on the trolley "
-            "to the container's mass center; spreader and container swing as one body. theta is the swing angle from "
-            "the downward vertical, counter-clockwise positive. A drive force F acts on the trolley, a wind force W on "
-            "the container, both to the right; c_x damps the trolley, c_h the hinge. Gravity acts downward."
+            "A trolley (mass M_t) runs on a horizontal rail, x positive to the right. A container (mass m, "
+            "inertia J_G about its mass center) hangs below it on a rigid, massless spreader of length L "
+            "from the hinge on the trolley to the container's mass center; spreader and container swing as "
+            "one body. theta is the swing angle from the downward vertical, counter-clockwise positive. A "
+            "drive force F acts on the trolley, a wind force W on the container, both to the right; c_x "
+            "damps the trolley, c_h the hinge. Gravity acts downward."
         ),
         measured="trolley encoder and swing-angle camera: free swing after a stop, response to wind",
         coordinates=(
             Coordinate(x, "m", "trolley position, positive to the right", None, "ignorable"),
-            Coordinate(theta, "rad", "swing angle from the downward vertical, counter-clockwise", (-pi, pi), "angle"),
+            Coordinate(
+                theta, "rad", "swing angle from the downward vertical, counter-clockwise", (-pi, pi), "angle"
+            ),
         ),
         parameters=PARAMETERS,
         inputs=(

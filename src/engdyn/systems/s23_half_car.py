@@ -111,7 +111,9 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
         sh.ForceArrow(roof, (roof[0], roof[1] + 0.17 * base), "$F_z$"),
         sh.Dimension((G[0], low), (front[0], low), "$a$"),
         sh.Dimension((rear[0], low), (G[0], low), "$b$"),
-        sh.CenterLine((a + 0.06 * base, level + 0.3 * base), (a + 0.24 * base, level + 0.3 * base), "$v_x$", arrow=True),
+        sh.CenterLine(
+            (a + 0.06 * base, level + 0.3 * base), (a + 0.24 * base, level + 0.3 * base), "$v_x$", arrow=True
+        ),
         sh.GravityArrow((tail, level + 0.42 * base), (tail, level + 0.26 * base), "$g$"),
     ]
 
@@ -135,7 +137,9 @@ def _corner(attachment, rise, end, base, outward):
         sh.Pin(attachment),
         sh.Label((x, hub), f"$m_{end}$"),
         sh.CoordinateArrow((beside, radius), (beside, hub), f"$z_{end}$", positive=UP),
-        sh.ForceArrow((x + 0.1 * outward * base, -0.13 * base), (x + 0.1 * outward * base, 0.0), f"$y_{end}$"),
+        sh.ForceArrow(
+            (x + 0.1 * outward * base, -0.13 * base), (x + 0.1 * outward * base, 0.0), f"$y_{end}$"
+        ),
     ]
 
 
@@ -150,13 +154,14 @@ def build() -> System:
         title="Half-car (pitch-plane) model on a rough road",
         field="vehicles",
         description=(
-            "Side view of a car that drives to the right at constant speed. The body (mass m_s, pitch inertia J) heaves by z, "
-            "positive up, and pitches by theta, counter-clockwise, nose up. The front suspension (k_f, c_f) acts "
-            "vertically between the body point a ahead of the mass center G and the front wheel (mass m_f, height zf), the "
-            "rear one (k_r, c_r) between the point b behind G and the rear wheel (m_r, zr). Tires k_tf, k_tr stand on the road "
-            "heights yf, yr. Springs are relaxed at zero coordinates; F_z is an aerodynamic lift at G. Gravity acts down."
+            "Side view of a car that drives to the right at constant speed. The body (mass m_s, pitch "
+            "inertia J) heaves by z, positive up, and pitches by theta, counter-clockwise, nose up. The "
+            "front suspension (k_f, c_f) acts vertically between the body point a ahead of the mass center "
+            "G and the front wheel (mass m_f, height zf), the rear one (k_r, c_r) between the point b "
+            "behind G and the rear wheel (m_r, zr). Tires k_tf, k_tr stand on the road heights yf, yr. "
+            "Springs are relaxed at zero coordinates; F_z is an aerodynamic lift at G. Gravity acts down."
         ),
-        measured="body and wheel accelerometers on a road of given roughness: ride comfort, wheelbase filtering",
+        measured="body and wheel accelerometers on a rough road: ride comfort, wheelbase filtering",
         coordinates=(
             Coordinate(z, "m", "heave of the body, up", (-0.5, 0.5), "length"),
             Coordinate(theta, "rad", "pitch of the body, nose up", (-1.5, 1.5), "angle"),

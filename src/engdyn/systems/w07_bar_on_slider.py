@@ -5,7 +5,16 @@ from __future__ import annotations
 from math import cos, pi, sin
 
 import sympy as sm
-from sympy.physics.mechanics import Force, Particle, Point, ReferenceFrame, RigidBody, Torque, dynamicsymbols, inertia
+from sympy.physics.mechanics import (
+    Force,
+    Particle,
+    Point,
+    ReferenceFrame,
+    RigidBody,
+    Torque,
+    dynamicsymbols,
+    inertia,
+)
 
 from engdyn import shapes as sh
 from engdyn.modeling.newton import FreeBody
@@ -70,8 +79,15 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
     return [
         sh.Ground(on_guide(low, rail), on_guide(high, rail)),
         sh.Ground(on_guide(low, 0.22 * length), on_guide(low, rail)),
-        sh.Spring(on_guide(low, 0.05 * length), on_guide(position - block, 0.05 * length), "$k$", width=0.08 * length),
-        sh.Damper(on_guide(low, -0.04 * length), on_guide(position - block, -0.04 * length), width=0.06 * length),
+        sh.Spring(
+            on_guide(low, 0.05 * length),
+            on_guide(position - block, 0.05 * length),
+            "$k$",
+            width=0.08 * length,
+        ),
+        sh.Damper(
+            on_guide(low, -0.04 * length), on_guide(position - block, -0.04 * length), width=0.06 * length
+        ),
         sh.Box(hinge, (2 * block, 0.18 * length), angle=incline),
         sh.Label(on_guide(position + 0.16 * length, 0.12 * length), "$m_s$", (1.0, 0.5)),
         sh.CenterLine(hinge, (hinge[0], hinge[1] - 0.7 * length)),
@@ -82,7 +98,9 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
         sh.Label(end, "$m,\\ l$", (0.6, -1.0)),
         sh.Pin(hinge),
         sh.AngleArrow(hinge, 0.42 * length, -pi / 2, angle - pi / 2, r"$\theta$"),
-        sh.CoordinateArrow(on_guide(0.0, 0.3 * length), on_guide(position, 0.3 * length), "$s$", positive=along),
+        sh.CoordinateArrow(
+            on_guide(0.0, 0.3 * length), on_guide(position, 0.3 * length), "$s$", positive=along
+        ),
         sh.GravityArrow((0.75 * length, 0.1 * length), (0.75 * length, -0.2 * length), "$g$"),
     ]
 
@@ -96,13 +114,16 @@ def build() -> System:
         title="Bar hinged to a slider on an inclined guide",
         field="worked example",
         description=(
-            "A slider (mass m_s) moves on a guide that rises to the right at the angle gamma; s is its travel up the guide, "
-            "a spring k relaxed at s = 0 and a damper c hold it. A uniform bar (mass m, length l) hangs from a hinge on "
-            "the slider; theta is its angle from the downward vertical, counter-clockwise. c_h damps the hinge."
+            "A slider (mass m_s) moves on a guide that rises to the right at the angle gamma; s is its "
+            "travel up the guide, a spring k relaxed at s = 0 and a damper c hold it. A uniform bar (mass "
+            "m, length l) hangs from a hinge on the slider; theta is its angle from the downward vertical, "
+            "counter-clockwise. c_h damps the hinge."
         ),
         coordinates=(
             Coordinate(s, "m", "travel of the slider up the guide", (-0.5, 0.5), "length"),
-            Coordinate(theta, "rad", "bar angle from the downward vertical, counter-clockwise", (-pi, pi), "angle"),
+            Coordinate(
+                theta, "rad", "bar angle from the downward vertical, counter-clockwise", (-pi, pi), "angle"
+            ),
         ),
         parameters=PARAMETERS,
         kinetic_energy=m_s * s_d**2 / 2 + m * (v_x**2 + v_y**2) / 2 + m * l**2 / 24 * theta_d**2,

@@ -33,7 +33,13 @@ def free_bodies() -> list[FreeBody]:
     pivot = Point("O")
     pivot.set_vel(ground, 0)
     bob = pivot.locatenew("P", -l * rod.y)
-    return [FreeBody(Particle("bob", bob, m), applied=[Force(bob, -m * g * ground.y)], reactions=[Force(bob, S * rod.y)])]
+    return [
+        FreeBody(
+            Particle("bob", bob, m),
+            applied=[Force(bob, -m * g * ground.y)],
+            reactions=[Force(bob, S * rod.y)],
+        )
+    ]
 
 
 def shapes(q: list[float], values: dict[str, float]) -> list:
@@ -58,8 +64,8 @@ def build() -> System:
         title="Simple pendulum",
         field="worked example",
         description=(
-            "A bob (particle, mass m) hangs from a fixed pivot on a light rod of length l; theta is the angle of the rod from "
-            "the downward vertical, counter-clockwise. Nothing damps it."
+            "A bob (particle, mass m) hangs from a fixed pivot on a light rod of length l; theta is the "
+            "angle of the rod from the downward vertical, counter-clockwise. Nothing damps it."
         ),
         coordinates=(Coordinate(theta, "rad", "rod angle from the downward vertical", (-pi, pi), "angle"),),
         parameters=PARAMETERS,

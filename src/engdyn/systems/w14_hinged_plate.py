@@ -63,7 +63,15 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
         sh.CenterLine((0.0, top), (0.0, -1.15 * length)),
         sh.Link((0.0, top), (0.0, 0.0)),
         sh.Link((0.0, 0.0), hinge),
-        sh.MomentArrow((0.0, 0.8 * top), 0.13 * length, 0.75 * pi, 2.25 * pi, r"$\Omega$", y_axis=(0.0, 0.4), role="reference"),
+        sh.MomentArrow(
+            (0.0, 0.8 * top),
+            0.13 * length,
+            0.75 * pi,
+            2.25 * pi,
+            r"$\Omega$",
+            y_axis=(0.0, 0.4),
+            role="reference",
+        ),
         sh.CenterLine(hinge, (offset, -0.7 * length)),
         sh.Box(middle, (0.05 * length, length), angle=angle),
         sh.CenterOfMass(middle),
@@ -78,19 +86,26 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
 def build() -> System:
     """The rotating plate as a System."""
     about_hinge = m * b**2 / 3
-    travel = m * e**2 + m * e * b * sm.sin(phi) + about_hinge * sm.sin(phi) ** 2 + m * w**2 / 12  # inertia about the axis
+    travel = (
+        m * e**2 + m * e * b * sm.sin(phi) + about_hinge * sm.sin(phi) ** 2 + m * w**2 / 12
+    )  # inertia about the axis
     return System(
         key="hinged_plate",
         title="Plate hinged to an eccentric rotating arm",
         field="worked example",
         description=(
-            "A vertical shaft turns at the rate Omega and carries a short arm. A thin uniform plate (mass m, length b, width w) "
-            "hangs from a hinge at the end of the arm, at the distance e from the axis; the hinge is horizontal and square to "
-            "the arm. phi is the angle of the plate from the downward vertical, positive outward. c damps the hinge."
+            "A vertical shaft turns at the rate Omega and carries a short arm. A thin uniform plate (mass "
+            "m, length b, width w) hangs from a hinge at the end of the arm, at the distance e from the "
+            "axis; the hinge is horizontal and square to the arm. phi is the angle of the plate from the "
+            "downward vertical, positive outward. c damps the hinge."
         ),
-        coordinates=(Coordinate(phi, "rad", "plate angle from the downward vertical, outward", (-pi, pi), "angle"),),
+        coordinates=(
+            Coordinate(phi, "rad", "plate angle from the downward vertical, outward", (-pi, pi), "angle"),
+        ),
         parameters=PARAMETERS,
-        inputs=(Input(drive, "rad", "arm angle", "drive angle", (Omega * dynamicsymbols._t, Omega, sm.S.Zero)),),
+        inputs=(
+            Input(drive, "rad", "arm angle", "drive angle", (Omega * dynamicsymbols._t, Omega, sm.S.Zero)),
+        ),
         kinetic_energy=about_hinge * phi_d**2 / 2 + travel * drive_d**2 / 2,
         potential_energy=-m * g * b / 2 * sm.cos(phi),
         dissipation=c * phi_d**2 / 2,

@@ -72,7 +72,10 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
         sh.Box(load, (0.26 * length, 0.2 * length), angle=angle, label="$m$"),
         sh.AngleArrow((0.0, 0.0), 0.5 * length, -pi / 2, angle - pi / 2, r"$\theta$"),
         sh.ForceArrow(
-            (back - 0.05 * length, floor + 0.75 * length), (back + 0.3 * length, floor + 0.75 * length), r"$\ddot x_b = a$", role="coordinate"
+            (back - 0.05 * length, floor + 0.75 * length),
+            (back + 0.3 * length, floor + 0.75 * length),
+            r"$\ddot x_b = a$",
+            role="coordinate",
         ),
         sh.GravityArrow((0.75 * length, -0.2 * length), (0.75 * length, -0.45 * length), "$g$"),
     ]
@@ -86,11 +89,14 @@ def build() -> System:
         title="Load hanging from an accelerating lift truck",
         field="worked example",
         description=(
-            "A load (particle, mass m) hangs on a chain of length l from the mast of a lift truck that drives to the right with "
-            "the constant acceleration a; theta is the angle of the chain from the downward vertical, counter-clockwise, so "
-            "that a positive angle swings the load forward. c damps the swing."
+            "A load (particle, mass m) hangs on a chain of length l from the mast of a lift truck that "
+            "drives to the right with the constant acceleration a; theta is the angle of the chain from "
+            "the downward vertical, counter-clockwise, so that a positive angle swings the load forward. c "
+            "damps the swing."
         ),
-        coordinates=(Coordinate(theta, "rad", "chain angle from the downward vertical, forward", (-pi, pi), "angle"),),
+        coordinates=(
+            Coordinate(theta, "rad", "chain angle from the downward vertical, forward", (-pi, pi), "angle"),
+        ),
         parameters=PARAMETERS,
         inputs=(Input(xb, "m", "position of the truck", "prescribed motion", (a * t**2 / 2, a * t, a)),),
         kinetic_energy=m * (v_x**2 + v_y**2) / 2,

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from engdyn.analysis.equilibrium import Equilibrium
     from engdyn.quantities import Parameter
 
-__all__ = ["EquilibriumExplorer", "Found", "equilibrium", "find", "follow", "slider"]
+__all__ = ["EquilibriumExplorer", "Found", "equilibrium", "find", "slider"]
 
 INTERESTING = ("rad/s", "m/s", "m/s^2", "N m/rad", "N/m", "rad", "m")
 """Units of the parameter that is followed at first: what moves, then what is stiff, then what is long."""
@@ -53,7 +53,7 @@ class Found:
 
 
 def slider(parameter: Parameter) -> Slider:
-    """Return a slider for a parameter: its span, else 0 (what must be positive: 0.2) to 2.5 times the default.
+    """Return a slider for a parameter: its span, or 0 (what must be positive: 0.2) to 2.5 times the default.
 
     A default of zero tells no scale: such a parameter goes up to 10 in its unit, or from -10 if it may be
     negative.
