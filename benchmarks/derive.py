@@ -3,7 +3,8 @@
     python -m benchmarks.derive [--rounds N] [--links N]
 
 One run times all tools in turn on the same sympy.physics.mechanics objects, round after round, so that
-drifts of the machine hit all alike; the table shows medians and their ratios.  engdyn derives twice,
+drifts of the machine hit all alike; the table shows medians and their ratios. Before a system is timed,
+the accelerations that the tools give are compared at a random state.  engdyn derives twice,
 proves both results equal and turns them into sympy matrices; the others derive once and prove nothing.
 """
 
@@ -18,7 +19,17 @@ from collections.abc import Callable
 from functools import partial
 from importlib.metadata import version
 
-from benchmarks.models import Model, cart_with_links, catalogue_system, engdyn, heavy_top, kane, lagrangian
+from benchmarks.agreement import check
+from benchmarks.models import (
+    Model,
+    cart_with_links,
+    catalogue_system,
+    double_pendulum,
+    engdyn,
+    heavy_top,
+    kane,
+    lagrangian,
+)
 
 TOOLS: dict[str, Callable[[Model], object]] = {
     "engdyn": engdyn,
@@ -56,8 +67,13 @@ def main(arguments: list[str] | None = None) -> None:
     head = f"{'system':26}" + "".join(f"{name + ' [ms]':>22}" for name in TOOLS)
     print(head + f"{'Lagrange/engdyn':>18}{'Kane/engdyn':>14}")
     models = [partial(catalogue_system, key) for key in ("S03", "S07", "S23")]
-    models += [heavy_top, *(partial(cart_with_links, n) for n in range(1, options.links + 1))]
+    models += [
+        double_pendulum,
+        heavy_top,
+        *(partial(cart_with_links, n) for n in range(1, options.links + 1)),
+    ]
     for make in models:
+        check(make)
         times = timed(make, options.rounds)
         ratios = [times[name] / times["engdyn"] for name in ("LagrangesMethod", "KanesMethod")]
         row = f"{make().name:26}" + "".join(f"{times[name]:22.1f}" for name in TOOLS)

@@ -87,6 +87,29 @@ def cart_with_links(n: int) -> Model:
     )
 
 
+def double_pendulum() -> Model:
+    """Two point masses on two rods, absolute angles."""
+    a, b = dynamicsymbols("a b")
+    m, l, g = sm.symbols("m l g", positive=True)
+    upper, lower = sm.symbols("S_1 S_2")
+    N, O = ReferenceFrame("N"), Point("O")
+    O.set_vel(N, 0)
+    along = [sm.sin(q) * N.x - sm.cos(q) * N.y for q in (a, b)]
+    P = O.locatenew("P", l * along[0])
+    Q = P.locatenew("Q", l * along[1])
+    bodies = [
+        ed.FreeBody(
+            Particle("upper", P, m),
+            [Force(P, -m * g * N.y)],
+            [Force(P, -upper * along[0]), Force(P, lower * along[1])],
+        ),
+        ed.FreeBody(Particle("lower", Q, m), [Force(Q, -m * g * N.y)], [Force(Q, -lower * along[1])]),
+    ]
+    kinetic = m * l**2 * (2 * a.diff() ** 2 + b.diff() ** 2 + 2 * sm.cos(a - b) * a.diff() * b.diff()) / 2
+    potential = -m * g * l * (2 * sm.cos(a) + sm.cos(b))
+    return Model("double pendulum", [a, b], N, bodies, [upper, lower], kinetic, potential)
+
+
 def heavy_top() -> Model:
     """A symmetric top about a fixed point in three angles."""
     a, b, c = dynamicsymbols("a b c")
@@ -159,10 +182,17 @@ def lagrangian(model: Model) -> LagrangesMethod:
     return method
 
 
+def engdyn_equations(model: Model) -> tuple[ed.EquationsOfMotion, ed.EquationsOfMotion]:
+    """Both derivations of engdyn."""
+    return (
+        ed.newton_euler(model.free_bodies, model.coordinates, model.frame, model.unknowns),
+        ed.lagrange(model.kinetic, model.potential, model.coordinates, model.dissipation, model.forces),
+    )
+
+
 def engdyn(model: Model) -> ed.Proof:
     """Both derivations and the proof that they agree, the result turned into sympy matrices."""
-    a = ed.newton_euler(model.free_bodies, model.coordinates, model.frame, model.unknowns)
-    b = ed.lagrange(model.kinetic, model.potential, model.coordinates, model.dissipation, model.forces)
+    a, b = engdyn_equations(model)
     proof = ed.prove_equal(a, b)
     assert proof
     assert b.mass_matrix.shape[0] == b.forcing.shape[0]

@@ -45,12 +45,33 @@ def points(count: int, seed: int = 1) -> list[tuple[mpmath.mpf, ...]]:
 
 
 def values(expression: sm.Expr, at: Sequence[tuple[mpmath.mpf, ...]]) -> list[mpmath.mpf | mpmath.mpc]:
-    """Values of an expression to 40 digits: mpmath evaluates what sympy prints."""
-    plain = dict(zip((x, y), sm.symbols("x_ y_"), strict=True))
-    arguments = [plain.get(v, v) for v in VARIABLES]
-    function = sm.lambdify(arguments, expression.xreplace(plain), "mpmath")
+    """Values of an expression to 40 digits."""
     with mpmath.workdps(40):
-        return [mpmath.mpmathify(function(*point)) for point in at]
+        return [_value(expression, dict(zip(VARIABLES, point, strict=True))) for point in at]
+
+
+def _value(expression: sm.Expr, known: dict[sm.Expr, mpmath.mpf]) -> mpmath.mpf | mpmath.mpc:
+    """mpmath's own functions, applied from the leaves up; values found are kept in `known`."""
+    if expression not in known:
+        if expression.is_Rational:
+            known[expression] = mpmath.mpf(expression.p) / expression.q
+        elif expression.is_Float:
+            known[expression] = mpmath.mpf(str(expression))
+        elif expression is sm.S.Pi or expression is sm.E:
+            known[expression] = +(mpmath.pi if expression is sm.S.Pi else mpmath.e)
+        else:
+            known[expression] = _operation(expression)(*(_value(e, known) for e in expression.args))
+    return known[expression]
+
+
+def _operation(expression: sm.Expr):
+    if expression.is_Add:
+        return lambda *parts: mpmath.fsum(parts)
+    if expression.is_Mul:
+        return lambda *parts: mpmath.fprod(parts)
+    if expression.is_Pow:
+        return mpmath.power
+    return {"Abs": mpmath.fabs}.get(type(expression).__name__) or getattr(mpmath, type(expression).__name__)
 
 
 def agree(left: sm.Expr, right: sm.Expr, digits: int = 30, count: int = 4) -> bool:
@@ -60,6 +81,20 @@ def agree(left: sm.Expr, right: sm.Expr, digits: int = 30, count: int = 4) -> bo
         real = [(p, q) for p, q in pairs if abs(mpmath.im(p)) < 1e-30 and abs(mpmath.im(q)) < 1e-30]
         assert real, f"no point where {left} is real"
         return all(abs(p - q) <= mpmath.mpf(10) ** -digits * (1 + abs(p) + abs(q)) for p, q in real)
+
+
+def has_slope(derivative: sm.Expr, expression: sm.Expr, digits: int = 12) -> bool:
+    """Whether an expression is the slope of another along x: compared with differences of 40-digit values."""
+    at = points(3)
+    with mpmath.workdps(40):
+        step = mpmath.mpf(10) ** -12
+        shifted = [[(p[0] + sign * step, *p[1:]) for p in at] for sign in (1, -1)]
+        above, below = (values(expression, some) for some in shifted)
+        slopes = [(p - q) / (2 * step) for p, q in zip(above, below, strict=True)]
+        found = values(derivative, at)
+        return all(
+            abs(p - q) <= mpmath.mpf(10) ** -digits * (1 + abs(q)) for p, q in zip(found, slopes, strict=True)
+        )
 
 
 # Random expressions
@@ -83,6 +118,15 @@ terms = st.builds(
     st.lists(st.sampled_from([a, b, k, x]), max_size=2),
 )
 polynomials = st.lists(terms, min_size=1, max_size=4).map(lambda found: sm.Add(*found))
+short = st.builds(
+    lambda number, symbol, function, i, j, more: number * symbol * function(i * x + j * y) + more,
+    rationals,
+    st.sampled_from([a, b, k, x]),
+    st.sampled_from([sm.sin, sm.cos]),
+    st.integers(-2, 2),
+    st.sampled_from([0, 1, -1, sm.Rational(1, 2)]),
+    st.sampled_from([0, 1, y, sm.sin(y), sm.cos(x) ** 2]),
+)
 
 
 def extend(inner: st.SearchStrategy) -> st.SearchStrategy:

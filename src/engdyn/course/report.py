@@ -15,8 +15,11 @@ import engdyn
 from engdyn.analysis.linear import linearize
 from engdyn.analysis.results import EquilibriumSet
 from engdyn.analysis.stability import Stability, stability
+from engdyn.course import report_model as model
 from engdyn.course import report_pictures as pictures
-from engdyn.course import report_sections as sections
+from engdyn.course import report_results as results
+from engdyn.course.report_matrices import small_motion
+from engdyn.course.report_tables import paragraph
 from engdyn.errors import EngdynError
 from engdyn.modeling.equality import Proof, prove_equal
 from engdyn.system import System
@@ -101,30 +104,30 @@ def report(system: System, progress: Progress | None = None) -> str:
     tell = progress or (lambda message: None)
     parts: list[tuple[str, str]] = [
         ("The system", _description(system)),
-        ("Quantities", sections.parameters(system)),
+        ("Quantities", model.parameters(system)),
     ]
     tell("deriving the equations of motion")
     lagrange = system.equations
     newton = _newton(system)
     if newton is not None:
-        parts.append(("Free bodies", sections.free_bodies(system.free_bodies(), system.frame)))
-        counted = sections.balances(newton) + sections.equations(newton)
+        parts.append(("Free bodies", model.free_bodies(system.free_bodies(), system.frame)))
+        counted = model.balances(newton) + model.equations(newton)
         parts.append(("Equations of motion from the free bodies (Newton–Euler)", counted))
-    energies = sections.energies(system) + sections.paragraph("Lagrange's equations of these energies:")
-    parts.append(
-        ("Equations of motion from the energies (Lagrange)", energies + sections.equations(lagrange))
-    )
+    energies = model.energies(system) + paragraph("Lagrange's equations of these energies:")
+    parts.append(("Equations of motion from the energies (Lagrange)", energies + model.equations(lagrange)))
     tell("proving that both derivations agree")
     proof = prove_equal(newton, lagrange) if newton is not None else None
     if proof is not None:
-        parts.append(("Are both the same?", sections.proof_verdict(proof)))
+        parts.append(("Are both the same?", model.proof_verdict(proof)))
     tell("looking for all equilibria")
     found = system.equilibria()
-    judged = [stability(linearize(lagrange, e)) for e in found]
+    linear = [linearize(lagrange, e) for e in found]
+    judged = [stability(item) for item in linear]
     if newton is not None and newton.reactions:
-        parts.append(("Reactions", sections.reactions(newton, found)))
+        parts.append(("Reactions", results.reactions(newton, found)))
     parts.append(("Equilibria and steady motions", _equilibria(system, found, judged, tell)))
-    parts.append(("Stability of small motion", sections.eigenvalue_tables(judged)))
+    moving = small_motion(linear, judged) + results.eigenvalue_tables(judged)
+    parts.append(("Small motion and its stability", moving))
     tell("following the equilibria over a parameter")
     parts.append(("Equilibria over a parameter", _branches(system)))
     return _page(system, [part for part in parts if part[1]], proof, found, judged)
@@ -140,15 +143,15 @@ def _newton(system: System) -> Any:
 
 
 def _description(system: System) -> str:
-    text = sections.paragraph(system.description) if system.description else ""
+    text = paragraph(system.description) if system.description else ""
     if system.measured:
-        text += sections.paragraph(f"What one would measure: {system.measured}.", note=True)
+        text += paragraph(f"What one would measure: {system.measured}.", note=True)
     return text + pictures.drawing_figure(system)
 
 
 def _equilibria(system: System, found: EquilibriumSet, judged: list[Stability], tell: Progress) -> str:
-    text = sections.paragraph("With the default parameters, and all inputs zero.")
-    text += sections.equilibrium_table(system, found, judged)
+    text = paragraph("Parameters as in the table; inputs zero, or as the system prescribes them.")
+    text += results.equilibrium_table(system, found, judged)
     tell("drawing the equilibria")
     verdicts = [each.verdict for each in judged]
     return text + pictures.poses_figure(system, found, verdicts) + pictures.potential_figure(system, found)

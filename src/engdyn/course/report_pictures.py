@@ -52,9 +52,8 @@ def poses_figure(system: System, found: Sequence[Any], verdicts: Sequence[str]) 
         ax = equilibrium_poses(system, found, judged=list(verdicts))
     except EngdynError:
         return ""
-    return _figure(
-        ax, "All equilibria on top of each other: stable ones in full lines, unstable ones broken."
-    )
+    caption = "All equilibria on top of each other: stable ones in full lines, unstable ones broken."
+    return _figure(ax, caption if len(found) > 1 else "The system in its equilibrium.")
 
 
 def potential_figure(system: System, found: Sequence[Any]) -> str:
@@ -64,8 +63,7 @@ def potential_figure(system: System, found: Sequence[Any]) -> str:
         energy, name = effective_potential(system, values)
     except EngdynError:  # it depends on time
         return ""
-    moving = any(np.any(e.accelerations) for e in found)
-    if moving or (system.potential_energy == 0 and "T" not in name):
+    if not all(_is_stationary(energy, e.q) for e in found):  # something else acts: a drive, an acceleration
         return ""
     over = _coordinates_of(system, energy, found)[:2]
     if not over:
@@ -76,6 +74,14 @@ def potential_figure(system: System, found: Sequence[Any]) -> str:
     if not any(c.bounds is not None and c.name not in over for c in system.coordinates):
         others = ""
     return _figure(ax, f"The {what}{others}: equilibria are its stationary points, stable ones its wells.")
+
+
+def _is_stationary(energy: Any, q: np.ndarray) -> bool:
+    """Whether the energy is stationary at a pose, by differences."""
+    steps = 1e-4 * np.eye(len(q))
+    slopes = np.array([float(energy(q + step) - energy(q - step)) for step in steps]) / 2e-4
+    curvatures = np.array([float(energy(q + s) - 2 * energy(q) + energy(q - s)) for s in steps]) / 1e-8
+    return bool(np.all(np.abs(slopes) <= 1e-5 * (np.max(np.abs(curvatures)) + 1e-9)))
 
 
 def _coordinates_of(system: System, energy: Any, found: Sequence[Any]) -> list[str]:
