@@ -112,15 +112,9 @@ def analyze(
 
     system = load(key)
     target = out or Path(f"{system.key}.html")
-    if target.is_dir() or not target.absolute().parent.is_dir():
-        raise EngdynError(f"{target} cannot be written: name a file in a folder that exists.")
-    if target.exists() and not force:
-        raise EngdynError(
-            f"{target} exists and was not touched: name another file with --out, or add --force."
-        )
     from .course.report import write_report
 
-    write_report(system.key, target)
+    write_report(system.key, target, force=force, progress=lambda step: print(f"  {step}", file=sys.stderr))
     print(f"wrote {target}")
 
 

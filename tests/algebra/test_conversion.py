@@ -6,9 +6,9 @@ from fractions import Fraction
 
 import pytest
 import sympy as sm
-from algebra.expressions import a, agree, b, elements, functions, k, short, t, x, y
 from hypothesis import given, settings
 
+from algebra.expressions import a, agree, b, elements, functions, k, short, t, x, y
 from engdyn.algebra.conversion import Converter
 from engdyn.algebra.readable import to_sympy, tree
 from engdyn.algebra.scan import angle_terms, as_fraction, exact_phase

@@ -6,11 +6,18 @@ import mpmath
 import numpy as np
 import pytest
 import sympy as sm
-from algebra.expressions import a, agree, b, elements, k, points, short, values, x, y
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from engdyn.algebra.elimination import determinant, eliminate, independent_columns, is_singular, primitive, solve
+from algebra.expressions import a, agree, b, elements, k, points, short, values, x, y
+from engdyn.algebra.elimination import (
+    determinant,
+    eliminate,
+    independent_columns,
+    is_singular,
+    primitive,
+    solve,
+)
 from engdyn.algebra.readable import to_sympy, tree
 
 s, c = sm.sin(x), sm.cos(x)
@@ -25,11 +32,15 @@ def rows_of(matrix: list[list[sm.Expr]]):
 
 def numbers(matrix: list[list[sm.Expr]], point: int) -> mpmath.matrix:
     with mpmath.workdps(40):
-        return mpmath.matrix([[values(sm.sympify(e), AT[point : point + 1])[0] for e in row] for row in matrix])
+        return mpmath.matrix(
+            [[values(sm.sympify(e), AT[point : point + 1])[0] for e in row] for row in matrix]
+        )
 
 
 def entries(n: int, m: int):
-    return st.lists(st.lists(st.one_of(st.just(sm.S.Zero), short), min_size=m, max_size=m), min_size=n, max_size=n)
+    return st.lists(
+        st.lists(st.one_of(st.just(sm.S.Zero), short), min_size=m, max_size=m), min_size=n, max_size=n
+    )
 
 
 @settings(max_examples=25)
@@ -57,7 +68,9 @@ def test_solutions(matrix):
             unknowns = [values(to_sympy(tree(e)), AT[1:2])[0] for e in found]
             right = numbers([[row[3]] for row in matrix], 1)
             residual = square * mpmath.matrix(unknowns) + right
-            assert mpmath.norm(residual) < mpmath.mpf(10) ** -20 * (1 + mpmath.norm(square) * mpmath.norm(unknowns))
+            assert mpmath.norm(residual) < mpmath.mpf(10) ** -20 * (
+                1 + mpmath.norm(square) * mpmath.norm(unknowns)
+            )
 
 
 def test_elimination_leaves_combinations_of_the_rows():

@@ -7,11 +7,25 @@ from fractions import Fraction
 import mpmath
 import pytest
 import sympy as sm
-from algebra.expressions import a, agree, angles, b, elements, has_slope, is_zero, k, short, terms, values, x, y
-from algebra.expressions import points as sample
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from algebra.expressions import (
+    a,
+    agree,
+    angles,
+    b,
+    elements,
+    has_slope,
+    is_zero,
+    k,
+    short,
+    terms,
+    values,
+    x,
+    y,
+)
+from algebra.expressions import points as sample
 from engdyn.algebra import polynomials as backend
 from engdyn.algebra.conversion import Converter
 from engdyn.algebra.readable import to_sympy, tree
@@ -118,7 +132,13 @@ def test_what_is_no_identity_is_not_proved(name):
 
 def test_every_listed_non_identity_really_differs():
     close = {name for name, pair in NOT_IDENTITIES.items() if agree(*pair, digits=12)}
-    assert close == {"tiny coefficient", "tiny float", "float of 40 digits", "approximate root", "approximate pi"}
+    assert close == {
+        "tiny coefficient",
+        "tiny float",
+        "float of 40 digits",
+        "approximate root",
+        "approximate pi",
+    }
 
 
 def test_both_backends_give_the_same_verdicts(monkeypatch):
@@ -157,7 +177,9 @@ def product_to_sum(factors: list[sm.Expr], number: sm.Expr) -> sm.Expr:
 
 @settings(max_examples=60)
 @given(
-    factors=st.lists(st.builds(lambda f, w: f(w), st.sampled_from([sin, cos]), angles), min_size=1, max_size=4),
+    factors=st.lists(
+        st.builds(lambda f, w: f(w), st.sampled_from([sin, cos]), angles), min_size=1, max_size=4
+    ),
     rest=terms,
     error=st.sampled_from([0, 0, 1, -2]),
 )
@@ -173,7 +195,12 @@ def test_zero_test_on_products_of_waves(factors, rest, error):
 @given(short, short)
 def test_sums_and_products_are_those_of_numbers(left, right):
     p, q = elements(left, right)
-    for element, expected in ((p + q, left + right), (p - q, left - right), (p * q, left * right), (p**2, left**2)):
+    for element, expected in (
+        (p + q, left + right),
+        (p - q, left - right),
+        (p * q, left * right),
+        (p**2, left**2),
+    ):
         assert agree(to_sympy(tree(element)), expected)
         assert element.is_zero() == agree(expected, sm.Integer(0))
 
@@ -222,7 +249,9 @@ def test_functions_are_differentiated(expression):
     assert has_slope(to_sympy(tree(derivative)), expression)
 
 
-@pytest.mark.parametrize("expression", [sm.floor(x), sm.Heaviside(x), sm.Piecewise((x, x > 0), (0, True)), 2**x])
+@pytest.mark.parametrize(
+    "expression", [sm.floor(x), sm.Heaviside(x), sm.Piecewise((x, x > 0), (0, True)), 2**x]
+)
 def test_unknown_derivatives_are_refused_not_taken_as_zero(expression):
     converter = Converter([expression * y])
     element = converter.convert(expression * y)
@@ -232,7 +261,9 @@ def test_unknown_derivatives_are_refused_not_taken_as_zero(expression):
     assert by_y.equals(converter.convert(expression))
 
 
-@pytest.mark.parametrize("expression", [sm.zoo * x, sm.oo + x, sm.nan, sm.I * x, sm.Derivative(sm.Function("f")(x), x)])
+@pytest.mark.parametrize(
+    "expression", [sm.zoo * x, sm.oo + x, sm.nan, sm.I * x, sm.Derivative(sm.Function("f")(x), x)]
+)
 def test_what_is_not_real_and_finite_is_refused(expression):
     with pytest.raises(OutsideRingError):
         Converter([expression])
@@ -256,7 +287,9 @@ def test_constants_and_specialization():
     p, q = elements((x + a * sin(y)) ** 2 / (b + x), sm.Float(2.5) - R(1, 2))
     assert q.as_rational() == 2
     assert p.as_rational() is None
-    at = p.specialize({p.ring.index["symbol", a]: Fraction(1, 3), p.ring.index["function", x, 0]: Fraction(2)})
+    at = p.specialize(
+        {p.ring.index["symbol", a]: Fraction(1, 3), p.ring.index["function", x, 0]: Fraction(2)}
+    )
     assert agree(to_sympy(tree(at)), (2 + sin(y) / 3) ** 2 / (b + 2))
 
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import sympy as sm
-from algebra.expressions import a, agree, b, elements, k, x, y
 
+from algebra.expressions import a, agree, b, elements, k, x, y
 from engdyn.algebra.readable import to_sympy, tree
 
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import sympy as sm
-from algebra.expressions import a, agree, elements, k, x, y
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy.physics.mechanics import dynamicsymbols
 
-from algebra.expressions import functions
+from algebra.expressions import a, agree, elements, functions, k, x, y
 from engdyn.algebra.conversion import Converter
 from engdyn.algebra.readable import to_sympy, tree
 from engdyn.algebra.union import common_ring

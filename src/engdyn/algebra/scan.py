@@ -197,7 +197,7 @@ class Scan:
             raise EngdynError(
                 f"{expr!r} is a {type(expr).__name__}, not a scalar expression: give one equation term"
             )
-        if expr.is_commutative is False or expr is sm.I or not expr.is_finite and expr.is_Atom:
+        if expr.is_commutative is False or expr is sm.I or (not expr.is_finite and expr.is_Atom):
             raise OutsideRingError(f"{expr} is not a real, finite quantity")
         if half_power(expr):
             self._visit(expr.base)

@@ -46,7 +46,7 @@ def slopes(ring: Ring, row: Element, keys: Sequence[Key]) -> list[Products]:
     outer = [i for i in sorted(row.generators()) if _is_function(ring, i)]
     if prod(_terms_below(ring, i) for i in outer) < LARGEST:
         return [as_products(ring.partial(key)(row) if key in ring.index else ring.zero) for key in keys]
-    held = dict.fromkeys(outer)
+    held: Any = dict.fromkeys(outer)
     by_function = {i: Derivation(ring, {**held, i: ring.one})(row) for i in outer}
     found = []
     for key in keys:

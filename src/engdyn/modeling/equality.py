@@ -12,7 +12,6 @@ from dataclasses import dataclass
 
 import sympy as sm
 
-
 from engdyn.algebra.elimination import determinant, is_singular
 from engdyn.algebra.ring import Element, Ring
 from engdyn.algebra.union import common_ring

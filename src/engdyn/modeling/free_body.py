@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from sympy.physics.mechanics import Force, Particle, RigidBody, Torque
 from sympy.physics.vector import Point, ReferenceFrame, Vector
@@ -13,7 +14,7 @@ from engdyn.modeling.motion import measure_numbers
 
 __all__ = ["FreeBody", "arm_of", "load_vector"]
 
-Load = Force | Torque
+Load: TypeAlias = Force | Torque
 
 
 @dataclass(frozen=True)

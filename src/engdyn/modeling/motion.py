@@ -8,6 +8,7 @@ it costs a fraction of what symbolic vectors cost.  Course sections 1.2 to 1.7.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from typing import Any
 
 import sympy as sm
@@ -48,7 +49,7 @@ def rotation_steps(a: ReferenceFrame, b: ReferenceFrame) -> list[sm.Matrix]:
         raise EngdynError(
             f"frame {b} is not oriented with respect to frame {a}: orient it, e.g. with orient_axis"
         ) from error
-    return [one._dcm_dict[two] for one, two in zip(frames, frames[1:], strict=False)]
+    return [one._dcm_dict[two] for one, two in pairwise(frames)]
 
 
 def spin_steps(a: ReferenceFrame, b: ReferenceFrame) -> list[Vector]:
@@ -61,7 +62,7 @@ def spin_steps(a: ReferenceFrame, b: ReferenceFrame) -> list[Vector]:
         raise EngdynError(
             f"frame {a} has no angular velocity in {b}: orient it or call set_ang_vel"
         ) from error
-    return [one._ang_vel_dict[two] for one, two in zip(frames, frames[1:], strict=False)]
+    return [one._ang_vel_dict[two] for one, two in pairwise(frames)]
 
 
 def path_of_point(point: Point, frame: ReferenceFrame) -> VectorPath:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import singledispatch
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +29,7 @@ def trace(shape: object, pen: Pen) -> None:
     raise EngdynError(f"{shape!r} cannot be drawn; a drawing is a list of shapes of engdyn.shapes.")
 
 
-def arc_points(shape, angles: NDArray) -> NDArray[np.float64]:
+def arc_points(shape: Any, angles: NDArray) -> NDArray[np.float64]:
     """Return points of a round shape at ``angles`` [rad], shape (N, 2 or 3), in meters."""
     return arc(shape.center, shape.radius, angles, shape.x_axis, shape.y_axis)
 
