@@ -114,8 +114,13 @@ def analyze(
     target = out or Path(f"{system.key}.html")
     from .course.report import write_report
 
-    write_report(system.key, target, force=force, progress=lambda step: print(f"  {step}", file=sys.stderr))
+    write_report(system.key, target, force=force, progress=_tell if sys.stderr.isatty() else None)
     print(f"wrote {target}")
+
+
+def _tell(step: str) -> None:
+    """One line of progress, for people who watch."""
+    print(f"  {step} ...", file=sys.stderr, flush=True)
 
 
 def main(arguments: list[str] | None = None) -> int:

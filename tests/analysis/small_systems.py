@@ -1,157 +1,41 @@
-"""Small systems for the tests of the analyses, each with an oracle that knows nothing of engdyn.
-
-Definitions of numbered systems are those of the catalogue; the oracle differentiates the energies with
-sympy itself and looks for zeros by brute force.
-"""
+"""Small systems for the tests of the analyses; numbered ones are defined as in the catalogue."""
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from math import pi
 
-import numpy as np
 import sympy as sm
-from scipy.optimize import brentq
-from scipy.optimize import root as scipy_root
-from sympy.core.function import AppliedUndef
 from sympy.physics.mechanics import dynamicsymbols
 
-import engdyn as ed
+from analysis.machines import car_and_trailer, castor, drive_train, drum_robot, turntable
+from analysis.oracle import Case, T, coordinates, distinct, of_catalogue, symbols
 
-T = dynamicsymbols._t
-
-
-@dataclass
-class Case:
-    """Energies of a system, default values, and the region of its equilibria."""
-
-    name: str
-    coordinates: Sequence[sm.Expr]
-    kinetic: sm.Expr
-    potential: sm.Expr
-    values: dict[str, float]
-    bounds: dict[str, tuple[float, float]]
-    dissipation: sm.Expr = sm.S.Zero
-    forces: dict[sm.Expr, sm.Expr] = field(default_factory=dict)
-    constraints: Sequence[sm.Expr] = ()
-    motion: dict[sm.Expr, sm.Expr] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        energies = self.kinetic, self.potential, list(self.coordinates), self.dissipation
-        self.eom = ed.lagrange(*energies, self.forces, self.constraints)
-
-    def __repr__(self) -> str:
-        return self.name
-
-    @property
-    def names(self) -> list[str]:
-        return [q.func.__name__ for q in self.coordinates]
-
-    def generalized_force(
-        self, values: dict[str, float], **inputs: float
-    ) -> Callable[[np.ndarray], np.ndarray]:
-        """∂T/∂q − ∂V/∂q − ∂D/∂q̇ + Q at rest, from the energies, as a function of q."""
-        rates = [q.diff(T) for q in self.coordinates]
-        slope = [
-            sm.diff(self.kinetic - self.potential, q) - sm.diff(self.dissipation, r) + self.forces.get(q, 0)
-            for q, r in zip(self.coordinates, rates, strict=True)
-        ]
-        moving = {d for e in slope for d in sm.sympify(e).atoms(sm.Derivative)}
-        known = {**dict.fromkeys(moving, sm.S.Zero), **self.motion}
-        plain = {q: sm.Symbol(f"q_{i}") for i, q in enumerate(self.coordinates)}
-        expressions = []
-        for e in slope:
-            e = sm.sympify(e).xreplace(known).xreplace(plain)
-            e = e.xreplace({f: inputs.get(f.func.__name__, sm.S.Zero) for f in e.atoms(AppliedUndef)})
-            expressions.append(e.xreplace({s: values[s.name] for s in e.free_symbols if s.name in values}))
-        function = sm.lambdify(list(plain.values()), expressions, "numpy")
-        return lambda q: np.array([float(x) for x in function(*q)])
-
-    def inertia(self, values: dict[str, float]) -> Callable[[np.ndarray], np.ndarray]:
-        """det ∂²T/∂q̇², from the energies, as a function of q."""
-        rates = [q.diff(T) for q in self.coordinates]
-        plain = {q: sm.Symbol(f"q_{i}") for i, q in enumerate(self.coordinates)}
-        mass = sm.hessian(
-            self.kinetic.xreplace({r: sm.Symbol(f"u_{r}") for r in rates}),
-            [sm.Symbol(f"u_{r}") for r in rates],
-        )
-        determinant = mass.det().xreplace(plain)
-        known = {s: values[s.name] for s in determinant.free_symbols if s.name in values}
-        function = sm.lambdify(list(plain.values()), determinant.xreplace(known), "numpy")
-        return lambda q: float(function(*q))
-
-    def brute_force(self, values: dict[str, float], starts: int = 13, **inputs: float) -> np.ndarray:
-        """All zeros that a dense grid of starts finds in the region, sorted, shape (number, n).
-
-        Where the mass matrix is singular the coordinates fail: a zero there is no equilibrium.
-        """
-        force, inertia = self.generalized_force(values, **inputs), self.inertia(values)
-        region = [self.bounds.get(n, (-pi, pi)) for n in self.names]
-        if len(region) == 1:
-            found = _sign_changes(lambda x: force([x])[0], *region[0])
-        else:
-            grids = [np.linspace(low, high, starts) + 1e-3 * (high - low) for low, high in region]
-            found = [_polished(force, np.array(start)) for start in itertools.product(*grids)]
-        typical = inertia([0.1234] * len(region))
-        regular = [x for x in found if x is not None and abs(inertia(x)) > 1e-9 * typical]
-        return distinct(regular, region)
-
-
-def _sign_changes(function: Callable[[float], float], low: float, high: float) -> list[np.ndarray]:
-    grid = np.linspace(low, high, 4001)
-    values = np.array([function(x) for x in grid])
-    values[np.abs(values) < 1e-12 * np.max(np.abs(values))] = 0.0
-    found = [np.array([x]) for x, v in zip(grid, values, strict=True) if v == 0.0]
-    for i in range(len(grid) - 1):
-        if values[i] * values[i + 1] < 0.0:
-            found.append(np.array([brentq(function, grid[i], grid[i + 1], xtol=1e-14)]))
-    return found
-
-
-def _polished(function: Callable[[np.ndarray], np.ndarray], start: np.ndarray) -> np.ndarray | None:
-    answer = scipy_root(function, start, tol=1e-13)
-    scale = 1.0 + np.max(np.abs(function(start)))
-    return answer.x if np.max(np.abs(function(answer.x))) < 1e-9 * scale else None
-
-
-def distinct(found: Sequence[np.ndarray], region: Sequence[tuple[float, float]]) -> np.ndarray:
-    """Zeros in the region, each once; a full turn is one place, (−π, π]."""
-    kept: list[np.ndarray] = []
-    for x in found:
-        x = np.array(x, dtype=float)
-        for i, (low, high) in enumerate(region):
-            if abs(high - low - 2 * pi) < 1e-9:
-                x[i] = high - np.mod(high - x[i], 2 * pi)
-                if x[i] - low < 1e-7:
-                    x[i] = high
-        inside = all(low - 1e-9 <= y <= high + 1e-9 for y, (low, high) in zip(x, region, strict=True))
-        if inside and not any(np.allclose(x, y, atol=1e-6) for y in kept):
-            kept.append(x)
-    return np.array(sorted(kept, key=lambda y: tuple(np.round(y, 6)))).reshape(-1, len(region))
-
-
-def of_catalogue(number: int) -> Case:
-    """The energies of a system of the catalogue."""
-    system = ed.systems.load(number)
-    motion = {w.symbol.diff(T): w.default[1] for w in system.inputs if w.default is not None}
-    return Case(
-        f"S{number:02d}",
-        [c.symbol for c in system.coordinates],
-        system.kinetic_energy,
-        system.potential_energy,
-        system.values(),
-        system.bounds,
-        system.dissipation,
-        system.generalized_forces,
-        motion=motion,
-    )
-
-
-def symbols(names: str) -> list[sm.Symbol]:
-    """Parameters by name."""
-    return list(sm.symbols(names, real=True, seq=True))
+__all__ = [
+    "T",
+    "bar_on_slider",
+    "car_and_trailer",
+    "carousel",
+    "castor",
+    "coordinates",
+    "distinct",
+    "drive_train",
+    "drum_robot",
+    "elastic_pendulum",
+    "follower_mast",
+    "hoop",
+    "isolator",
+    "normal_form",
+    "of_catalogue",
+    "pendulum",
+    "seismometer",
+    "ship",
+    "snap_through",
+    "sprung_double_pendulum",
+    "symbols",
+    "turntable",
+    "two_wells",
+    "windy_pendulum",
+]
 
 
 def pendulum() -> Case:
@@ -339,139 +223,6 @@ def ship() -> Case:
     damping = c_r * roll**2 / 2 + c_t * tilt**2 / 2
     region = {"phi": (-pi, pi), "theta": (-pi, pi)}
     return Case("S16 ship", [phi, theta], kinetic, potential, numbers, region, damping)
-
-
-def quartic() -> Case:
-    (x,) = coordinates("x")
-    return Case("V = x^4", [x], x.diff() ** 2 / 2, x**4 / 4, {}, {"x": (-1.0, 1.0)})
-
-
-def turntable() -> Case:
-    """S06, steady motion at the reference rate, held by the motor."""
-    theta, s = coordinates("theta s")
-    J, m, e, k, s_0, c_s, c_t = symbols("J m e k s_0 c_s c_t")
-    M, F = dynamicsymbols("M F")
-    kinetic = (
-        J * theta.diff() ** 2 / 2 + m * ((s.diff() - e * theta.diff()) ** 2 + (s * theta.diff()) ** 2) / 2
-    )
-    damping = c_t * theta.diff() ** 2 / 2 + c_s * s.diff() ** 2 / 2
-    numbers = {"J": 0.8, "m": 2.0, "e": 0.05, "k": 1500.0, "s_0": 0.25, "c_s": 8.0, "c_t": 0.05}
-    potential = k * (s - s_0) ** 2 / 2
-    region = {"s": (0.0, 1.0)}
-    return Case("S06 turntable", [theta, s], kinetic, potential, numbers, region, damping, {theta: M, s: F})
-
-
-def drum_robot() -> Case:
-    """S09, on a slope."""
-    x, theta = coordinates("x theta")
-    M_d, R, J_d, m, l, J_p, beta, c_a, g = symbols("M_d R J_d m l J_p beta c_a g")
-    tau = dynamicsymbols("tau")
-    v, w = x.diff(), theta.diff()
-    across = v * sm.cos(beta) + l * sm.cos(theta) * w
-    upward = v * sm.sin(beta) + l * sm.sin(theta) * w
-    kinetic = (M_d + J_d / R**2) * v**2 / 2 + m * (across**2 + upward**2) / 2 + J_p * w**2 / 2
-    potential = (M_d + m) * g * x * sm.sin(beta) - m * g * l * sm.cos(theta)
-    numbers = {
-        "M_d": 6.0,
-        "R": 0.2,
-        "J_d": 0.2,
-        "m": 8.0,
-        "l": 0.12,
-        "J_p": 0.05,
-        "beta": 0.05,
-        "c_a": 0.06,
-        "g": 9.81,
-    }
-    damping = c_a * (w + v / R) ** 2 / 2
-    return Case("S09 drum", [x, theta], kinetic, potential, numbers, {}, damping, {x: tau / R, theta: tau})
-
-
-def castor() -> Case:
-    """S13, rolling without side slip."""
-    y, psi = coordinates("y psi")
-    m_p, m, J_G, a, b, k_y, c_y, k_p, c_p, v = symbols("m_p m J_G a b k_y c_y k_p c_p v")
-    F, M = dynamicsymbols("F M")
-    w = psi.diff()
-    kinetic = m_p * (v**2 + y.diff() ** 2) / 2 + J_G * w**2 / 2
-    kinetic += m * ((v + b * sm.sin(psi) * w) ** 2 + (y.diff() - b * sm.cos(psi) * w) ** 2) / 2
-    potential = k_y * y**2 / 2 + k_p * psi**2 / 2
-    damping = c_y * y.diff() ** 2 / 2 + c_p * w**2 / 2
-    numbers = {"m_p": 3.0, "m": 8.0, "J_G": 0.12, "a": 0.1, "b": 0.07, "k_y": 6e4, "c_y": 150.0, "k_p": 0.0}
-    numbers |= {"c_p": 2.0, "v": 2.0}
-    rolling = y.diff() * sm.cos(psi) - v * sm.sin(psi) - a * w
-    region = {"y": (-0.05, 0.05), "psi": (-pi / 2, pi / 2)}
-    forces = {y: F, psi: M}
-    return Case("S13 castor", [y, psi], kinetic, potential, numbers, region, damping, forces, [rolling])
-
-
-def car_and_trailer() -> Case:
-    """S18, straight running."""
-    y, psi, theta = coordinates("y psi theta")
-    m_1, J_1, a, b, h, m_2, J_2, e, d = symbols("m_1 J_1 a b h m_2 J_2 e d")
-    C_1, C_2, C_3, c_h, v = symbols("C_1 C_2 C_3 c_h v")
-    delta, F_w = dynamicsymbols("delta F_w")
-    sp, cp, st, ct = sm.sin(psi), sm.cos(psi), sm.sin(theta), sm.cos(theta)
-    y_d, psi_d, theta_d = y.diff(), psi.diff(), theta.diff()
-    across, along = y_d * cp - v * sp, v * cp + y_d * sp
-    front = -C_1 * (sm.atan((across + a * psi_d) / along) - delta)
-    rear = -C_2 * sm.atan((across - b * psi_d) / along)
-    side = y_d * ct - v * st - h * sm.cos(psi - theta) * psi_d - d * theta_d
-    axle = -C_3 * sm.atan(side / (v * ct + y_d * st + h * sm.sin(psi - theta) * psi_d))
-    kinetic = m_1 * (v**2 + y_d**2) / 2 + J_1 * psi_d**2 / 2 + J_2 * theta_d**2 / 2
-    kinetic += m_2 * (v + h * sp * psi_d + e * st * theta_d) ** 2 / 2
-    kinetic += m_2 * (y_d - h * cp * psi_d - e * ct * theta_d) ** 2 / 2
-    forces = {
-        y: (front + rear) * cp + axle * ct + F_w,
-        psi: a * front - b * rear - h * axle * sm.cos(psi - theta) - h * F_w * cp,
-        theta: -d * axle - e * F_w * ct,
-    }
-    numbers = {
-        "m_1": 1500.0,
-        "J_1": 2500.0,
-        "a": 1.2,
-        "b": 1.4,
-        "h": 2.3,
-        "m_2": 1000.0,
-        "J_2": 1800.0,
-        "e": 2.9,
-    }
-    numbers |= {"d": 3.0, "C_1": 8e4, "C_2": 9e4, "C_3": 6e4, "c_h": 200.0, "v": 22.0}
-    damping = c_h * (theta_d - psi_d) ** 2 / 2
-    return Case("S18 car and trailer", [y, psi, theta], kinetic, sm.S.Zero, numbers, {}, damping, forces)
-
-
-def drive_train() -> Case:
-    """S20, wind turbine with a gear stage."""
-    tr, tb, tg = coordinates("tr tb tg")
-    J_r, J_1, J_2, J_g, N, K_s, C_s, K_h, C_h, B, w_0 = symbols("J_r J_1 J_2 J_g N K_s C_s K_h C_h B w_0")
-    rho, R, v, q_0, q_1, q_2 = symbols("rho R v q_0 q_1 q_2")
-    T_w, T_e = dynamicsymbols("T_w T_e")
-    a, b, c = tr.diff(), tb.diff(), tg.diff()
-    speed_ratio = a * R / v
-    wind = rho * sm.pi * R**3 * v**2 / 2 * (q_0 + q_1 * speed_ratio + q_2 * speed_ratio**2)
-    kinetic = J_r * a**2 / 2 + (J_2 + J_1 / N**2) * b**2 / 2 + J_g * c**2 / 2
-    potential = K_s * (tr - tb / N) ** 2 / 2 + K_h * (tb - tg) ** 2 / 2
-    damping = C_s * (a - b / N) ** 2 / 2 + C_h * (b - c) ** 2 / 2
-    numbers = {
-        "J_r": 2.9e6,
-        "J_1": 500.0,
-        "J_2": 3.0,
-        "J_g": 60.0,
-        "N": 80.0,
-        "K_s": 1e8,
-        "C_s": 4e5,
-        "K_h": 2e5,
-    }
-    numbers |= {"C_h": 20.0, "B": 3000.0, "w_0": 157.08, "rho": 1.225, "R": 35.0, "v": 11.0}
-    numbers |= {"q_0": -0.03, "q_1": 0.0425, "q_2": -0.0042}
-    forces = {tr: wind + T_w, tg: -B * (c - w_0) + T_e}
-    region = {"tr_d": (-5.0, 10.0)}
-    return Case("S20 drive train", [tr, tb, tg], kinetic, potential, numbers, region, damping, forces)
-
-
-def coordinates(names: str) -> list[sm.Expr]:
-    """Dynamicsymbols as a list, also for one name."""
-    return [dynamicsymbols(name) for name in names.split()]
 
 
 def normal_form(potential: sm.Expr, name: str, **values: float) -> Case:
