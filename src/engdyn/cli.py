@@ -114,11 +114,11 @@ def analyze(
     target = out or Path(f"{system.key}.html")
     from .course.report import write_report
 
-    write_report(system.key, target, force=force, progress=_tell if sys.stderr.isatty() else None)
+    write_report(system.key, target, force=force, progress=_step if sys.stderr.isatty() else None)
     print(f"wrote {target}")
 
 
-def _tell(step: str) -> None:
+def _step(step: str) -> None:
     """One line of progress, for people who watch."""
     print(f"  {step} ...", file=sys.stderr, flush=True)
 

@@ -117,7 +117,6 @@ terms = st.builds(
     st.lists(waves, max_size=3),
     st.lists(st.sampled_from([a, b, k, x]), max_size=2),
 )
-polynomials = st.lists(terms, min_size=1, max_size=4).map(lambda found: sm.Add(*found))
 short = st.builds(
     lambda number, symbol, function, i, j, more: number * symbol * function(i * x + j * y) + more,
     rationals,
@@ -144,4 +143,4 @@ def extend(inner: st.SearchStrategy) -> st.SearchStrategy:
     )
 
 
-functions = st.recursive(terms, extend, max_leaves=4)
+functions = st.recursive(short, extend, max_leaves=3)
