@@ -38,22 +38,24 @@ def assert_close(actual, expected, tolerance):
     np.testing.assert_allclose(actual / scale, expected / scale, atol=tolerance)
 
 
+CASES = [
+    small.pendulum(),
+    small.hoop(),
+    small.snap_through(),
+    small.seismometer(),
+    small.bar_on_slider(),
+    small.elastic_pendulum(),
+    small.isolator(),
+    small.follower_mast(),
+    small.carousel(),
+    small.ship(),
+    small.sprung_double_pendulum(),
+]
+
+
 def steady_states():
     """(label, equations, equilibrium) of equilibria and steady motions, parameters at random."""
-    cases = [
-        small.pendulum(),
-        small.hoop(),
-        small.snap_through(),
-        small.seismometer(),
-        small.bar_on_slider(),
-        small.elastic_pendulum(),
-        small.isolator(),
-        small.follower_mast(),
-        small.carousel(),
-        small.ship(),
-        small.sprung_double_pendulum(),
-    ]
-    for k, case in enumerate(cases):
+    for k, case in enumerate(CASES):
         random = np.random.default_rng(k)
         values = {n: v * (1 + 0.2 * random.uniform(-1, 1)) for n, v in case.values.items()}
         for e in ed.equilibria(case.eom, values, case.bounds):

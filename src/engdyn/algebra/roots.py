@@ -7,12 +7,23 @@ generator: √(8 l² a) = 2 l √(2 a).  Two calls are the same when their argum
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from math import gcd, isqrt, lcm
+from typing import Any
+
+import sympy as sm
 
 from engdyn.algebra.ring import Definition, Element, Ring
 
 __all__ = ["define_call", "define_magnitude", "define_root", "square_content"]
+
+#: f(−x) from f(x), for functions that sympy turns round: tanh(−x) becomes −tanh(x).
+OF_THE_NEGATIVE: dict[Any, Callable[[Element], Element]] = {
+    **dict.fromkeys((sm.atan, sm.asin, sm.sinh, sm.tanh, sm.asinh, sm.atanh), lambda value: -value),
+    sm.cosh: lambda value: value,
+    sm.exp: lambda value: 1 / value,
+}
 
 
 def define_root(ring: Ring, index: int, radicand: Element) -> Element:
@@ -45,13 +56,16 @@ def define_magnitude(ring: Ring, index: int, argument: Element) -> Element:
 
 
 def define_call(ring: Ring, index: int, definition: Definition) -> Element:
-    """A function value: generator `index`, or the one whose arguments are equal."""
+    """A function value: generator `index`, or the one whose arguments are equal, or opposite."""
     function, arguments = ring.keys[index][1].func, definition.arguments
     for i, known in ring.definitions.items():
         if known.kind != "call" or not arguments or ring.keys[i][1].func != function:
             continue
+        generator = Element(ring, ring.polynomials.gens[i])
         if all(a.equals(b) for a, b in zip(known.arguments, arguments, strict=True)):
-            return Element(ring, ring.polynomials.gens[i])
+            return generator
+        if function in OF_THE_NEGATIVE and known.arguments[0].equals(-arguments[0]):
+            return OF_THE_NEGATIVE[function](generator)
     ring.define(index, definition)
     return Element(ring, ring.polynomials.gens[index])
 

@@ -143,7 +143,7 @@ class Transfer:
                     target.set_angle(base, whole, self(definition.arguments[0]) * Fraction(divisor, whole))
             elif definition.kind == "call":
                 (at,) = self._images[index].generators()
-                if not target.definitions[at].slopes:
+                if target.keys[at] == self._keys[index] and not target.definitions[at].slopes:
                     slopes = tuple(None if s is None else self(s) for s in definition.slopes)
                     target.definitions[at].slopes = slopes
 
