@@ -104,17 +104,17 @@ rationals = st.fractions(min_value=-4, max_value=4, max_denominator=6).map(
 )
 angles = st.builds(
     lambda i, j, n, d, phase: (i * x + j * y) * sm.Rational(n, d) + phase * sm.pi / 6,
-    st.integers(-3, 3),
+    st.integers(-2, 2),
     st.integers(-2, 2),
     st.integers(1, 2),
-    st.sampled_from([1, 1, 2, 3]),
+    st.sampled_from([1, 2]),
     st.integers(-3, 3),
 )
 waves = st.builds(lambda function, angle: function(angle), st.sampled_from([sm.sin, sm.cos]), angles)
 terms = st.builds(
     lambda number, factors, symbols: sm.Mul(number, *factors, *symbols),
     rationals,
-    st.lists(waves, max_size=3),
+    st.lists(waves, max_size=2),
     st.lists(st.sampled_from([a, b, k, x]), max_size=2),
 )
 short = st.builds(

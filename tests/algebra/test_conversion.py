@@ -15,7 +15,7 @@ from engdyn.algebra.scan import angle_terms, as_fraction, exact_phase
 from engdyn.errors import OutsideRingError
 
 
-@settings(max_examples=60)
+@settings(max_examples=35)
 @given(functions)
 def test_there_and_back_is_the_same(expression):
     (element,) = elements(expression)

@@ -25,7 +25,7 @@ def same(left: sm.Expr, right: sm.Expr) -> bool:
     return p.equals(q)
 
 
-@settings(max_examples=40)
+@settings(max_examples=25)
 @given(functions, functions)
 def test_carried_elements_keep_their_values(left, right):
     _, (p, q) = carried(left, right)
@@ -34,10 +34,10 @@ def test_carried_elements_keep_their_values(left, right):
     assert agree(to_sympy(tree(p * q)), left * right, digits=25)
 
 
-@settings(max_examples=30)
+@settings(max_examples=20)
 @given(functions, st.sampled_from([x, k]))
 def test_derivatives_in_the_common_ring_are_those_of_the_own(expression, variable):
-    ring, (_, p) = carried(sm.cos(x / 6) + sm.sin(y / 5), expression)
+    ring, (_, p) = carried(sm.cos(x / 2) + sm.sin(y / 3), expression)
     key = ("symbol", variable) if variable.is_Symbol else ("function", variable, 0)
     (own,) = elements(expression)
     expected = to_sympy(tree(own.ring.partial(key)(own)))
@@ -54,7 +54,9 @@ def test_other_divisors_of_an_angle():
 def test_roots_magnitudes_and_calls_meet_in_other_forms():
     assert same(sm.sqrt((x + 1) ** 2 + 2), sm.sqrt(x**2 + 2 * x + 3))
     assert same(sm.sqrt(x**2), sm.Abs(-x))
-    assert same(sm.cos(sm.sqrt((x + 1) ** 2 + 2)), sm.cos(sm.sqrt(x**2 + 2 * x + 3))) is False  # two angles
+    assert same(sm.cos(sm.sqrt((x + 1) ** 2 + 2)), sm.cos(sm.sqrt(x**2 + 2 * x + 3)))
+    assert same(sm.tanh(sm.sin(x) - x), -sm.tanh(x - sm.sin(x)))
+    assert same(sm.cosh(x - y) * sm.exp(y - x), sm.cosh(y - x) / sm.exp(x - y))
     assert same(sm.atan(x * (y + 1)), sm.atan(x * y + x))
     assert same(sm.exp(sm.sqrt(8 * x)), sm.exp(2 * sm.sqrt(2 * x)))
     assert not same(sm.atan(x), sm.tanh(x))

@@ -183,9 +183,20 @@ def test_equal_at_every_state_tried_so_far_is_not_equal():
     key = ("function", theta, 0)
     keys = list(crane.newton().occurring)
     seen = {state[key] for _, state in zip(range(12), sample_states(keys), strict=False) if key in state}
-    product = sm.prod([sm.sin(theta - sm.Rational(x.numerator, x.denominator)) for x in seen])
+    numbers = [sm.Rational(x.numerator, x.denominator) for x in sorted(seen)]
+    product = sm.prod([theta - x for x in numbers[:9]]) * sm.prod([sm.sin(theta - x) for x in numbers[9:]])
     wrong = lagrange_with(crane, potential_energy=crane.potential_energy + product**2)
     assert ed.prove_equal(wrong, crane.newton()).verdict == "refuted"
+
+
+def test_what_is_too_large_to_expand_is_said_to_be_so():
+    crane = ed.systems.load("S07")
+    theta = crane.coordinates[1].symbol
+    product = sm.prod([sm.sin(theta - sm.Rational(k, 101)) for k in range(30, 60)])
+    crane.potential_energy = crane.potential_energy + product
+    proof = crane.prove()
+    assert proof.verdict == "undecided"
+    assert "too many terms" in proof.method
 
 
 def test_gravity_in_v_and_as_a_force_is_named():

@@ -150,13 +150,18 @@ def atan2(y: Any, x: Any) -> Any:
 
 
 def _of_numbers(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Let a function of balls take plain numbers as well."""
+    """Let a function of balls take plain numbers as well.
+
+    The methods of ``arb`` do not check what they are given: a float is read as if it were a ball, with
+    wrong results or a crash.
+    """
+    is_ball = _backend.is_ball
 
     def lifted(*arguments: Any) -> Any:
-        try:
-            return function(*arguments)
-        except (TypeError, AttributeError):
-            return function(*map(_number, arguments))
+        for x in arguments:
+            if not is_ball(x):
+                return function(*map(_number, arguments))
+        return function(*arguments)
 
     return lifted
 

@@ -5,12 +5,16 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from engdyn.errors import EngdynError
+from engdyn.errors import EngdynError, OutsideRingError
 
 if TYPE_CHECKING:
     from engdyn.algebra.ring import Ring
 
-__all__ = ["Element", "add_angles", "without_common_sines"]
+__all__ = ["Element", "add_angles", "without_common_roots"]
+
+
+#: Products of polynomials that could have more terms than this are refused: they would take minutes.
+LARGEST_PRODUCT = 300_000
 
 
 class Element:
@@ -27,7 +31,7 @@ class Element:
     def quotient(ring: Ring, numerator: Any, denominator: Any) -> Element:
         """Normal form of a quotient: common factors cancelled, denominator monic."""
         ps = ring.polynomials
-        numerator, denominator = ring.reduce(numerator), ring.reduce(denominator)
+        numerator, denominator = _rationalized(ring, ring.reduce(numerator), ring.reduce(denominator))
         if ps.is_zero(denominator):
             raise EngdynError(
                 "an expression is divided by something that is zero identically: check its denominators"
@@ -72,6 +76,10 @@ class Element:
     def __mul__(self, other: Any) -> Element:
         other = self._coerce(other)
         a, b = self.denominator, other.denominator
+        if len(self.numerator) * len(other.numerator) > LARGEST_PRODUCT:
+            raise OutsideRingError(
+                "an expression has too many terms to be expanded exactly: write it in shorter parts"
+            )
         product = self.numerator * other.numerator
         if a is None and b is None:
             return Element(self.ring, self.ring.reduce(product))
@@ -144,29 +152,40 @@ def add_angles(a: tuple[Element, Element], b: tuple[Element, Element]) -> tuple[
     return a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]
 
 
-def without_common_sines(ring: Ring, polynomials: list[Any]) -> list[Any]:
-    """Polynomials divided by the sines that all of them contain, if only as sin² written 1 − cos².
+def _rationalized(ring: Ring, numerator: Any, denominator: Any) -> tuple[Any, Any]:
+    """n/(b g) as n g/(b g²) for every sine or root g that divides the denominator."""
+    ps = ring.polynomials
+    degrees = ps.degrees(denominator)
+    for index, square in ring.squares.items():
+        if degrees[index] == 1:
+            rest, generator = ps.derivative(denominator, index), ps.gens[index]
+            if denominator == rest * generator:
+                numerator, denominator = ring.reduce(numerator * generator), ring.reduce(rest * square)
+                degrees = ps.degrees(denominator)
+    return numerator, denominator
+
+
+def without_common_roots(ring: Ring, polynomials: list[Any]) -> list[Any]:
+    """Polynomials divided by the sines and roots that all contain, if only as squares (1 − cos²).
 
     Common factors of polynomials are found by their greatest common divisor, these are not.
     """
     ps = ring.polynomials
-    used = [i for p in polynomials[:1] for i, degree in enumerate(ps.degrees(p)) if degree > 0]
-    bases = {ring.keys[i][1:] for i in used if ring.keys[i][0] in ("sine", "cosine")}
-    for base in sorted(bases, key=str):
-        while True:
-            divided = [_over_sine(ring, p, base) for p in polynomials]
+    used = {i for p in polynomials for i, degree in enumerate(ps.degrees(p)) if degree > 0}
+    for index in used & ring.squares.keys():
+        while not ps.is_constant(ring.squares[index]):
+            divided = [_over_root(ring, p, index) for p in polynomials]
             if any(p is None for p in divided):
                 break
             polynomials = divided
     return polynomials
 
 
-def _over_sine(ring: Ring, p: Any, base: tuple[Any, ...]) -> Any | None:
-    """p/s where it is a polynomial: from p = a s + b it is a + b s/(1 − c²)."""
-    ps, index = ring.polynomials, ring.index["sine", *base]
-    sine, cosine = ps.gens[index], ps.gens[ring.index["cosine", *base]]
-    a, circle = ps.derivative(p, index), ps.one - cosine * cosine
-    b = p - a * sine
+def _over_root(ring: Ring, p: Any, index: int) -> Any | None:
+    """p/g where it is a polynomial: from p = a g + b it is a + b g/g²."""
+    ps, square = ring.polynomials, ring.squares[index]
+    generator, a = ps.gens[index], ps.derivative(p, index)
+    b = p - a * generator
     if ps.is_zero(b):
         return a
-    return a + ps.quotient(b, circle) * sine if ps.is_zero(ps.remainder(b, circle)) else None
+    return a + ps.quotient(b, square) * generator if ps.is_zero(ps.remainder(b, square)) else None

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from random import Random
 
-from engdyn.algebra.element import Element, without_common_sines
+from engdyn.algebra.element import Element, without_common_roots
 from engdyn.algebra.ring import Ring
 
 __all__ = [
@@ -91,11 +91,7 @@ def primitive(row: Row) -> Row:
     """A row divided by what all its entries have in common, denominators cleared."""
     ring = row[0].ring
     ps = ring.polynomials
-    for entry in row:
-        if entry.denominator is not None:
-            below = Element(ring, entry.denominator)
-            row = [a * below for a in row]
-            return primitive(row)
+    row = _without_denominators(row)
     common = ps.zero
     for entry in row:
         if not entry.is_zero():
@@ -108,9 +104,22 @@ def primitive(row: Row) -> Row:
     if not ps.is_constant(common):
         numerators = [ps.quotient(p, common) for p in numerators]
     occupied = [i for i, p in enumerate(numerators) if not ps.is_zero(p)]
-    for i, p in zip(occupied, without_common_sines(ring, [numerators[i] for i in occupied]), strict=True):
+    for i, p in zip(occupied, without_common_roots(ring, [numerators[i] for i in occupied]), strict=True):
         numerators[i] = p
     return [Element(ring, p) for p in numerators]
+
+
+def _without_denominators(row: Row) -> Row:
+    """A row multiplied by the least common multiple of its denominators."""
+    ring, ps = row[0].ring, row[0].ring.polynomials
+    denominators = [entry.denominator for entry in row if entry.denominator is not None]
+    if not denominators:
+        return row
+    multiple = ps.one
+    for below in denominators:
+        multiple = multiple * ps.quotient(below, ps.gcd(multiple, below))
+    factors = [multiple if e.denominator is None else ps.quotient(multiple, e.denominator) for e in row]
+    return [Element(ring, e.numerator) * Element(ring, f) for e, f in zip(row, factors, strict=True)]
 
 
 def solve(rows: Sequence[Row], unknowns: int) -> list[Element] | None:

@@ -14,12 +14,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from fractions import Fraction
-from itertools import product as cartesian
+from functools import lru_cache
 from typing import Any
 
 import sympy as sm
 
-from engdyn.algebra.element import Element, without_common_sines
+from engdyn.algebra.element import Element, without_common_roots
 from engdyn.algebra.ring import Ring
 
 __all__ = ["ONE", "ZERO", "make_product", "make_sum", "to_sympy", "tree"]
@@ -41,7 +41,7 @@ def tree(element: Element) -> Node:
         return _grouped(ring, element.numerator)
     if element.is_zero():
         return ZERO
-    above, below = without_common_sines(ring, [element.numerator, element.denominator])
+    above, below = without_common_roots(ring, [element.numerator, element.denominator])
     return make_product([_grouped(ring, above), make_power(_factored(ring, below), -1)])
 
 
@@ -219,12 +219,21 @@ def _trig_product(ring: Ring, angular: list[int], exponents: tuple[int, ...]) ->
 
 def _angle_sums(ring: Ring, angular: list[int], terms: dict) -> list[tuple[Node, Node]]:
     """The same polynomial as a sum of cosines and sines of angle sums (product-to-sum formulas)."""
-    angles = sorted({ring.keys[i][1:] for i in angular}, key=str)
-    waves: dict[tuple[int, ...], complex | Any] = {}
+    used = [at for at in range(len(angular)) if any(exponents[at] for exponents in terms)]
+    angles = sorted({ring.keys[angular[at]][1:] for at in used}, key=str)
+    place = {
+        key: i for i, key in enumerate((kind, *angle) for kind in ("cosine", "sine") for angle in angles)
+    }
+    slots = [(at, place[ring.keys[angular[at]]]) for at in used]
+    waves: dict[tuple[int, ...], list[Fraction]] = {}
     for exponents, coefficient in terms.items():
-        for multiples, (re, im) in _exponentials(ring, angular, exponents, angles).items():
-            old = waves.get(multiples, (Fraction(0), Fraction(0)))
-            waves[multiples] = (old[0] + coefficient * re, old[1] + coefficient * im)
+        powers = [0] * (2 * len(angles))
+        for at, slot in slots:
+            powers[slot] = exponents[at]
+        turns = sum(powers[len(angles) :]) % 4  # each sine brings a factor −i
+        scale = coefficient / 2 ** sum(powers) * (1 if turns in (0, 3) else -1)
+        for multiples, count in _exponentials(tuple(powers)):
+            waves.setdefault(multiples, [Fraction(0), Fraction(0)])[turns % 2] += scale * count
     found = []
     for multiples, (re, im) in waves.items():
         if multiples < tuple(-k for k in multiples) or (re == 0 and im == 0):
@@ -238,24 +247,21 @@ def _angle_sums(ring: Ring, angular: list[int], terms: dict) -> list[tuple[Node,
     return found
 
 
-def _exponentials(ring: Ring, angular: list[int], exponents: tuple[int, ...], angles: list) -> dict:
-    """cos = (z + 1/z)/2 and sin = (z − 1/z)/(2i): multiples of each angle → complex coefficient."""
-    waves = {(0,) * len(angles): (Fraction(1), Fraction(0))}
-    for i, e in zip(angular, exponents, strict=True):
-        at = angles.index(ring.keys[i][1:])
-        half = Fraction(1, 2)
-        if ring.keys[i][0] == "cosine":
-            step = {1: (half, Fraction(0)), -1: (half, Fraction(0))}
-        else:
-            step = {1: (Fraction(0), -half), -1: (Fraction(0), half)}
-        for _ in range(e):
-            out: dict = {}
-            for (k, (a, b)), (d, (c, s)) in cartesian(waves.items(), step.items()):
-                key = (*k[:at], k[at] + d, *k[at + 1 :])
-                old = out.get(key, (Fraction(0), Fraction(0)))
-                out[key] = (old[0] + a * c - b * s, old[1] + a * s + b * c)
-            waves = out
-    return waves
+@lru_cache(maxsize=4096)
+def _exponentials(powers: tuple[int, ...]) -> tuple[tuple[tuple[int, ...], int], ...]:
+    """Expand Π (z + 1/z)^c (z − 1/z)^s over all angles, cosines' powers first: multiples → integer."""
+    n = len(powers) // 2
+    waves: dict[tuple[int, ...], int] = {(): 1}
+    for c, s in zip(powers[:n], powers[n:], strict=True):
+        single = {0: 1}
+        for sign in (1,) * c + (-1,) * s:
+            out: dict[int, int] = {}
+            for k, count in single.items():
+                out[k + 1] = out.get(k + 1, 0) + count
+                out[k - 1] = out.get(k - 1, 0) + sign * count
+            single = out
+        waves = {(*k, d): a * b for k, a in waves.items() for d, b in single.items() if a * b}
+    return tuple(waves.items())
 
 
 def to_sympy(node: Node) -> sm.Expr:

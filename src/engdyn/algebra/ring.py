@@ -71,7 +71,7 @@ class Ring:
         self.index = {key: i for i, key in enumerate(self.keys)}
         self.polynomials = polynomials(len(self.keys))
         self.definitions: dict[int, Definition] = {}
-        self._relations: list[tuple[int, Any]] = []
+        self.squares: dict[int, Any] = {}
         self._multiples: dict[tuple[Key, int], tuple[Element, Element]] = {}
         self.zero = Element(self, self.polynomials.zero)
         self.one = Element(self, self.polynomials.one)
@@ -87,14 +87,13 @@ class Ring:
     def define(self, index: int, definition: Definition) -> None:
         """Record what generator `index` stands for and the relation that lowers its powers."""
         self.definitions[index] = definition
-        gen = self.polynomials.gens[index]
+        ps = self.polynomials
         if definition.kind == "sine":
-            _, angle, divisor = self.keys[index]
-            cosine = self.polynomials.gens[self.index["cosine", angle, divisor]]
-            self._relations.append((index, gen * gen + cosine * cosine - self.polynomials.one))
+            cosine = ps.gens[self.index["cosine", *self.keys[index][1:]]]
+            self.squares[index] = ps.one - cosine * cosine
         elif definition.square is not None:
-            self._relations.append((index, gen * gen - definition.square.numerator))
-        self._relations.sort(key=lambda relation: relation[0])
+            self.squares[index] = definition.square.numerator
+        self.squares = dict(sorted(self.squares.items()))
 
     def define_angle(self, angle: Any, divisor: int) -> None:
         """Make the generators of a base angle a sine and its cosine; :meth:`set_angle` completes them."""
@@ -109,13 +108,15 @@ class Ring:
 
     def reduce(self, p: Any) -> Any:
         """Normal form of a polynomial: no generator with a relation beyond the first power."""
-        if not self._relations:
+        ps = self.polynomials
+        if not self.squares:
             return p
-        degrees = self.polynomials.degrees(p)
-        for index, divisor in self._relations:
+        degrees = ps.degrees(p)
+        for index, square in self.squares.items():
             if degrees[index] > 1:
-                p = self.polynomials.remainder(p, divisor)
-                degrees = self.polynomials.degrees(p)
+                generator = ps.gens[index]
+                p = ps.remainder(p, generator * generator - square)
+                degrees = ps.degrees(p)
         return p
 
     def multiple_angle(self, angle: Any, divisor: int, n: int) -> tuple[Element, Element]:

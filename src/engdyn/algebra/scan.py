@@ -82,13 +82,18 @@ def independent_atoms(expr: sm.Basic) -> list[sm.Expr]:
     return list(found)
 
 
+#: Multiples and parts of a base angle up to this size are expanded by angle addition.
+SIMPLE = 24
+
+
 def angle_terms(angle: sm.Expr) -> list[tuple[sm.Expr, Fraction]]:
     """An angle as a sum of rational multiples of base angles.
 
     Returns
     -------
     list of (base, factor)
-        ``2*theta - phi/3`` gives ``[(theta, 2), (phi, -1/3)]``; a number gives base 1.
+        ``2*theta - phi/3`` gives ``[(theta, 2), (phi, -1/3)]``; a number gives base 1.  A factor
+        that is not a simple fraction (1.2345) stays with its base: expanding it would be endless.
     """
     if any(a.is_Add or (a.is_Pow and a.base.is_Add) for term in sm.Add.make_args(angle) for a in term.args):
         angle = sm.expand(angle)
@@ -96,7 +101,14 @@ def angle_terms(angle: sm.Expr) -> list[tuple[sm.Expr, Fraction]]:
     for term in sm.Add.make_args(angle):
         coefficient, base = term.as_coeff_Mul()
         factors[base] = factors.get(base, Fraction(0)) + as_fraction(coefficient)
-    return [(base, factor) for base, factor in factors.items() if factor]
+    found = []
+    for base, factor in factors.items():
+        if factor and max(abs(factor.numerator), factor.denominator) > SIMPLE:
+            size = abs(factor)
+            found.append((sm.Rational(size.numerator, size.denominator) * base, factor / size))
+        elif factor:
+            found.append((base, factor))
+    return found
 
 
 def exact_phase(factor: Fraction) -> tuple[sm.Expr, sm.Expr] | None:

@@ -99,6 +99,8 @@ class Transfer:
     def _polynomial(self, p) -> Element:
         source, target = self._source.polynomials, self._target.polynomials
         used = [i for i, degree in enumerate(source.degrees(p)) if degree > 0]
+        if not used:
+            return self._target.constant(source.leading_coefficient(p))
         images = {i: self.image(i) for i in used}
         if all(
             image.denominator is None and image.numerator == target.gens[self._mapping[i]]

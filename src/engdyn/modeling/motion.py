@@ -60,7 +60,7 @@ def spin_steps(a: ReferenceFrame, b: ReferenceFrame) -> list[Vector]:
         frames = a._dict_list(b, 1)
     except ValueError as error:
         raise EngdynError(
-            f"frame {a} has no angular velocity in {b}: orient it or call set_ang_vel"
+            f"frame {a} is not oriented with respect to frame {b}: orient it, or call set_ang_vel"
         ) from error
     return [one._ang_vel_dict[two] for one, two in pairwise(frames)]
 

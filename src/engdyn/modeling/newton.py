@@ -181,17 +181,11 @@ def _kinematic_scalars(body: FreeBody, path: VectorPath, frame: ReferenceFrame) 
     forces = [load for load in (*body.applied, *body.reactions) if isinstance(load, Force)]
     vectors = [*path.steps, path.start._vel_dict[frame]]
     vectors += [arm_of(load, body) for load in forces if load.point != body.center]
-    frames = {f for v in (*vectors, *body.vectors()) for _, f in v.args}
     inertia = [body.body.central_inertia] if body.turns else []
-    if body.turns:
-        spins = spin_steps(body.body.frame, frame)
-        vectors += spins
-        frames |= {body.body.frame, *(f for v in spins for _, f in v.args)}
-        frames |= {unit.args[0][1] for part in inertia[0].args for unit in part[1:]}
-    for f in list(frames):  # frames in which these turn, in turn
-        spins = spin_steps(f, frame)
-        vectors += spins
-        frames |= {g for v in spins for _, g in v.args}
+    turning = [body.body.frame] if body.turns else []
+    turning += [unit.args[0][1] for part in inertia[0].args for unit in part[1:]] if inertia else []
+    vectors += [spin for f in dict.fromkeys(turning) for spin in spin_steps(f, frame)]
+    frames = {*turning, *(f for v in (*vectors, *body.vectors()) for _, f in v.args)}
     turns = [step for f in frames for a, b in ((frame, f), (f, frame)) for step in rotation_steps(a, b)]
     return measure_numbers(*vectors, *inertia, *turns)
 

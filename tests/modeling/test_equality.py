@@ -1,0 +1,287 @@
+"""Proved, refuted or undecided: the verdict is never wrong, whatever the equations are made of."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import sympy as sm
+from sympy.physics.mechanics import dynamicsymbols
+
+import engdyn as ed
+from engdyn.algebra import polynomials
+from engdyn.modeling import witness
+
+t = dynamicsymbols._t
+x, y, F = dynamicsymbols("x y F")
+m, k, c, l = sm.symbols("m k c l", positive=True)
+W = sm.Symbol("Omega", real=True)
+R, sin, cos = sm.Rational, sm.sin, sm.cos
+x_dd, y_dd = x.diff(t, 2), y.diff(t, 2)
+
+
+def one(force: sm.Expr, inertia: sm.Expr = m) -> ed.EquationsOfMotion:
+    """The equation m x'' + force = 0."""
+    return ed.EquationsOfMotion.from_residuals([inertia * x_dd + force], [x])
+
+
+def verdict(left: sm.Expr, right: sm.Expr) -> str:
+    """Verdict on two forces, the same in both directions."""
+    found = {ed.prove_equal(one(left), one(right)).verdict, ed.prove_equal(one(right), one(left)).verdict}
+    assert len(found) == 1
+    return found.pop()
+
+
+PROVED = {
+    "same": (k * x, k * x),
+    "double angle": (k * sin(2 * x), 2 * k * sin(x) * cos(x)),
+    "half angles": (k * (1 - cos(x)), 2 * k * sin(x / 2) ** 2),
+    "phase": (k * cos(x - sm.pi / 3), k * (cos(x) + sm.sqrt(3) * sin(x)) / 2),
+    "decimal": (0.5 * k * x, k * x / 2),
+    "root": (k * x * (1 - l / sm.sqrt(x**2 + l**2)), k * x - k * x * l * sm.sqrt(l**2 + x**2) / (l**2 + x**2)),
+    "root of a square": (k * sm.sqrt(x**2), k * sm.Abs(x)),
+    "dry friction": (c * sm.sign(x.diff(t)) * sm.Abs(x.diff(t)), c * x.diff(t)),
+    "atan": (k * sm.atan((x**2 + 2 * x) / l), k * sm.atan(((x + 1) ** 2 - 1) / l)),
+    "other names of inputs": (k * x - F, k * x - dynamicsymbols("F", real=True)),
+    "Omega of both signs": (m * sm.Abs(W) ** 2 * x, m * W**2 * x),
+    "exp": (k * sm.exp(x) ** 2, k * sm.exp(2 * x)),
+    "opaque but equal": (k * sm.floor(x), k * sm.floor(x)),
+}
+REFUTED = {
+    "sign": (k * x, -k * x),
+    "factor": (k * x, 2 * k * x),
+    "tiny factor": (k * x, (1 + R(1, 10**30)) * k * x),
+    "tiny float": (k * x, sm.Float("1.000000000000000000000000000001", 40) * k * x),
+    "tiny term": (k * x, k * x + R(1, 10**40) * x**3),
+    "small angle": (k * sin(x), k * x),
+    "series": (sin(x), x - x**3 / 6 + x**5 / 120 - x**7 / 5040 + x**9 / 362880),
+    "magnitude": (k * x, k * sm.Abs(x)),
+    "root of a square": (k * x, k * sm.sqrt(x**2)),
+    "magnitude of Omega": (m * W * x, m * sm.Abs(W) * x),
+    "pi": (sm.pi * x, R(355, 113) * x),
+    "pi of 20 digits": (sm.pi * x, R("3.14159265358979323846") * x),
+    "phase": (k * cos(x + sm.pi / 3), k * cos(x + 2 * sm.pi / 7) + 0 * sin(y)),
+    "exp": (k * (1 + sm.exp(x)) ** 2, k * (1 + sm.exp(x) + sm.exp(2 * x))),
+    "dry friction": (c * sm.sign(x.diff(t)), c * x.diff(t)),
+    "missing input": (k * x - F, k * x),
+    "input acceleration": (k * x + m * F.diff(t, 2), k * x + m * F.diff(t)),
+}
+NOT_DECIDED = {
+    "Heaviside": (k * x * sm.Heaviside(x), k * (x + sm.Abs(x)) / 2),
+    "Piecewise": (k * sm.Piecewise((x, x > 0), (0, True)), k * (x + sm.Abs(x)) / 2),
+    "Max": (k * sm.Max(x, 0), k * (x + sm.Abs(x)) / 2),
+    "floor": (k * sm.floor(x), k * sm.ceiling(x)),
+    "exponentials that are equal": (k * (1 + sm.exp(x)) ** 2, k * (1 + 2 * sm.exp(x) + sm.exp(2 * x))),
+    "hyperbolic identity": (k * sm.cosh(x) ** 2, k * (1 + sm.sinh(x) ** 2)),
+    "product of roots": (k * sm.sqrt(x) * sm.sqrt(y), k * sm.sqrt(x * y)),
+    "cosines of pi/7": (8 * k * cos(sm.pi / 7) * cos(2 * sm.pi / 7) * cos(3 * sm.pi / 7), k),
+    "inverse functions": (k * sm.asin(sin(x)), k * sm.asin(sin(x)) + 0 * y + k * (sm.acos(0) - sm.pi / 2)),
+}
+TRUE_BUT_BEYOND = {"exponentials that are equal", "hyperbolic identity", "cosines of pi/7", "product of roots"}
+
+
+@pytest.mark.parametrize("name", PROVED)
+def test_equal_forces_are_proved(name):
+    assert verdict(*PROVED[name]) == "proved"
+
+
+@pytest.mark.parametrize("name", REFUTED)
+def test_different_forces_are_refuted(name):
+    assert verdict(*REFUTED[name]) == "refuted"
+
+
+@pytest.mark.parametrize("name", NOT_DECIDED)
+def test_nothing_is_claimed_where_the_algebra_ends(name):
+    found = verdict(*NOT_DECIDED[name]) if name != "product of roots" else _two_roots()
+    allowed = {"undecided", "proved"} if name in TRUE_BUT_BEYOND | {"inverse functions"} else {"undecided"}
+    assert found in allowed
+
+
+def _two_roots() -> str:
+    pair = [
+        ed.EquationsOfMotion.from_residuals([m * x_dd + force, m * y_dd + k * y], [x, y])
+        for force in NOT_DECIDED["product of roots"]
+    ]
+    return ed.prove_equal(*pair).verdict
+
+
+def test_the_other_backend_gives_the_same_verdicts(monkeypatch):
+    monkeypatch.setattr(polynomials, "backend_name", lambda: "sympy")
+    assert {verdict(*pair) for pair in PROVED.values()} == {"proved"}
+    assert {verdict(*pair) for pair in REFUTED.values()} == {"refuted"}
+
+
+def test_without_flint_the_catalogue_is_proved_and_refuted_alike():
+    """Balls of mpmath and polynomials of sympy, chosen by the environment of a process of its own."""
+    script = """
+import sympy as sm, engdyn as ed
+from engdyn.algebra.balls import BACKEND
+for key in ("S03", "S07", "S23"):
+    system = ed.systems.load(key)
+    q = system.coordinates[-1].symbol
+    wrong = ed.lagrange(system.kinetic_energy, 2 * system.potential_energy,
+                        [c.symbol for c in system.coordinates], system.dissipation, system.generalized_forces)
+    print(BACKEND, system.prove().verdict, ed.prove_equal(wrong, system.newton()).verdict)
+"""
+    environment = {**__import__("os").environ, "ENGDYN_BACKEND": "sympy"}
+    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=environment, check=True)
+    assert run.stdout.split("\n")[:3] == ["sympy proved refuted"] * 3
+
+
+def test_a_witness_is_a_state_that_anyone_can_check():
+    left, right = one(k * x**3 + c * x.diff(t) - F), one(k * x**3 - c * x.diff(t) - F)
+    proof = ed.prove_equal(left, right)
+    state = dict(proof.witness.state)
+    at = {name: state[name] for name in ("m", "k", "c")}
+    found = [
+        eom.accelerations([state["x"]], [state["x'"]], at, {"F": state["F"]})[0] for eom in (left, right)
+    ]
+    assert proof.witness.quantity == "the acceleration of x"
+    np.testing.assert_allclose(found, proof.witness.values, rtol=1e-12)
+    by_hand = [(state["F"] - sign * at["c"] * state["x'"] - at["k"] * state["x"] ** 3) / at["m"] for sign in (1, -1)]
+    np.testing.assert_allclose(found, by_hand, rtol=1e-12)
+    assert "refuted" in repr(proof)
+    assert "the acceleration of x" in repr(proof)
+    assert not proof
+
+
+def test_pi_is_no_parameter_of_a_witness():
+    proof = ed.prove_equal(one(sm.pi * k * x), one(2 * sm.pi * k * x))
+    assert set(proof.witness.state) == {"x", "k", "m"}
+    state = proof.witness.state
+    assert proof.witness.values[0] == pytest.approx(-np.pi * state["k"] * state["x"] / state["m"], rel=1e-12)
+
+
+def test_parameters_of_a_witness_have_their_declared_signs():
+    low, high = sm.Symbol("low", negative=True), sm.Symbol("high", positive=True)
+    proof = ed.prove_equal(one(low * x + high), one(2 * low * x + high))
+    assert proof.witness.state["low"] < 0 < proof.witness.state["m"]
+    assert verdict(sm.Abs(low) * x, -low * x) == "proved"
+    assert verdict(sm.sqrt((low - 1) ** 2) * x, (1 - low) * x) == "proved"
+
+
+# Equations that agree wherever the search looks first
+
+
+@pytest.mark.parametrize("known", [1, 5, 20, witness.ATTEMPTS - 1])
+def test_agreement_at_the_first_states_is_no_agreement(monkeypatch, known):
+    states = _tried(monkeypatch, one(k * x), one(k * x + l * x))
+    roots = [state["function", x, 0] for state in states[:known]]
+    difference = sm.Mul(*(x - R(r.numerator, r.denominator) for r in roots), l)
+    proof = ed.prove_equal(one(k * x), one(k * x + difference))
+    assert proof.verdict == "refuted"
+    assert proof.witness.state["x"] not in {float(r) for r in roots}
+
+
+def test_agreement_at_all_states_tried_is_never_called_proof(monkeypatch):
+    states = _tried(monkeypatch, one(k * x), one(k * x + l * x))
+    assert len(states) == witness.ATTEMPTS
+    roots = [state["function", x, 0] for state in states]
+    difference = sm.Mul(*(x - R(r.numerator, r.denominator) for r in roots), l)
+    assert verdict(k * x, k * x + difference) == "undecided"
+
+
+def _tried(monkeypatch, left, right) -> list[dict]:
+    """All states of the search for a witness between two equations."""
+    seen: list = []
+    original = witness.sample_states
+
+    def recorded(keys):
+        seen.append(list(keys))
+        return original(keys)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(witness, "sample_states", recorded)
+        ed.prove_equal(left, right)
+    return list(original(seen[0]))
+
+
+# Rows
+
+RIGHT = [(m + k) * x_dd + m * l * cos(y) * y_dd + F, m * l * cos(y) * x_dd + m * l**2 * y_dd + c * sin(y) * y.diff(t)]
+
+
+def two(*rows: sm.Expr) -> ed.EquationsOfMotion:
+    return ed.EquationsOfMotion.from_residuals(rows, [x, y])
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        [RIGHT[1], RIGHT[0]],
+        [3 * RIGHT[0], -RIGHT[1] / (m * l)],
+        [cos(x) * RIGHT[0] + sin(x) * RIGHT[1], -sin(x) * RIGHT[0] + cos(x) * RIGHT[1]],
+        [RIGHT[0] + x * RIGHT[1], RIGHT[1]],
+        [RIGHT[0] / cos(y), RIGHT[1] * sm.sqrt(1 + x**2)],
+        [RIGHT[0] + sm.exp(x) * RIGHT[1], RIGHT[1] * sm.Abs(1 + x)],
+    ],
+    ids=["reordered", "scaled", "turned", "combined", "functions", "roots"],
+)
+def test_rows_may_be_scaled_reordered_and_combined(rows):
+    assert ed.prove_equal(two(*rows), two(*RIGHT)).verdict == "proved"
+    assert ed.prove_equal(two(*RIGHT), two(*rows)).verdict == "proved"
+    wrong = [rows[0], rows[1] + R(1, 1000) * RIGHT[0] + R(1, 1000) * sin(y) ** 2]
+    assert ed.prove_equal(two(*wrong), two(*RIGHT)).verdict == "refuted"
+
+
+def test_coordinates_may_be_listed_in_another_order():
+    swapped = ed.EquationsOfMotion.from_residuals(RIGHT, [y, x])
+    assert ed.prove_equal(swapped, two(*RIGHT))
+    assert ed.prove_equal(two(*RIGHT), swapped)
+
+
+def test_symbols_need_the_same_names_only():
+    plain = sm.symbols("m k c l")
+    renamed = [row.subs(dict(zip((m, k, c, l), plain, strict=True)), simultaneous=True) for row in RIGHT]
+    assert ed.prove_equal(two(*renamed), two(*RIGHT))
+    mixed = [RIGHT[0].subs(k, plain[1]), RIGHT[1]]
+    assert ed.prove_equal(two(*mixed), two(*RIGHT))
+    assert ed.prove_equal(two(*RIGHT), two(*[(mixed[0] + RIGHT[0]) / 2, RIGHT[1]]))
+
+
+# What cannot be compared
+
+
+def test_singular_mass_matrices_are_an_error():
+    twice = two(x_dd + y_dd - k, 2 * x_dd + 2 * y_dd - k * x)
+    hidden = two(sin(x) * x_dd + cos(x) * y_dd - k, sin(2 * x) * x_dd / 2 + cos(x) ** 2 * y_dd - k)
+    for singular in (twice, hidden):
+        for pair in ((singular, singular), (singular, two(*RIGHT)), (two(*RIGHT), singular)):
+            with pytest.raises(ed.EngdynError, match="singular mass matrix"):
+                ed.prove_equal(*pair)
+    with pytest.raises(ed.EngdynError, match="singular mass matrix"):
+        two(x_dd - k, k * y)
+
+
+def test_nowhere_regular_together_is_not_proved():
+    """|x| + x and |x| - x: at every state one of the equations has no acceleration."""
+    left = ed.EquationsOfMotion.from_residuals([(sm.Abs(x) + x) * (x_dd - k)], [x])
+    right = ed.EquationsOfMotion.from_residuals([(sm.Abs(x) - x) * (x_dd - l)], [x])
+    assert ed.prove_equal(left, right).verdict == "undecided"
+
+
+def test_other_coordinates_or_speeds_are_an_error():
+    other = ed.EquationsOfMotion.from_residuals([m * y_dd + k * y], [y])
+    with pytest.raises(ed.EngdynError, match="coordinates differ: x and y"):
+        ed.prove_equal(one(k * x), other)
+    rolling = ed.lagrange(
+        m * (x.diff(t) ** 2 + y.diff(t) ** 2) / 2, 0, [x, y], constraints=[x.diff(t) - k * y.diff(t)]
+    )
+    free = ed.lagrange(m * (x.diff(t) ** 2 + y.diff(t) ** 2) / 2, 0, [x, y])
+    with pytest.raises(ed.EngdynError, match="speeds differ"):
+        ed.prove_equal(rolling, free)
+    with pytest.raises(ed.EngdynError, match="not EquationsOfMotion"):
+        ed.prove_equal(one(k * x), m * x_dd + k * x)
+
+
+def test_other_kinematics_are_refuted():
+    energy = m * (x.diff(t) ** 2 + y.diff(t) ** 2) / 2
+    first = ed.lagrange(energy, 0, [x, y], constraints=[y.diff(t) - l * x.diff(t) * cos(x)])
+    second = ed.lagrange(energy, 0, [x, y], constraints=[y.diff(t) - 2 * l * x.diff(t) * cos(x)])
+    proof = ed.prove_equal(first, second)
+    assert proof.verdict == "refuted"
+    assert "kinematics" in proof.method
+    first_rate, second_rate = proof.witness.values
+    assert second_rate == pytest.approx(2 * first_rate)
