@@ -10,9 +10,9 @@ import mpmath
 import numpy as np
 import pytest
 import sympy as sm
-from algebra.expressions import KEYS, a, b, elements, functions, k, points, values, x, y
 from hypothesis import given, settings
 
+from algebra.expressions import KEYS, a, b, elements, functions, k, points, values, x, y
 from engdyn.algebra import balls
 from engdyn.algebra.codegen import FUNCTIONS, compile_elements, source
 from engdyn.algebra.conversion import Converter
@@ -51,7 +51,11 @@ def test_random_expressions_on_floats_arrays_and_balls(expression):
     for point, exact in zip(AT, values(expression, AT), strict=True):
         (found,) = enclosing(*(balls.ball(float(v)) for v in point))
         assert balls.is_finite(found)
-        assert balls.lower(found) - 1e-12 * (1 + abs(exact)) <= exact <= balls.upper(found) + 1e-12 * (1 + abs(exact))
+        assert (
+            balls.lower(found) - 1e-12 * (1 + abs(exact))
+            <= exact
+            <= balls.upper(found) + 1e-12 * (1 + abs(exact))
+        )
         assert balls.width(found) < 1e-9 * (1 + abs(float(exact)))
 
 

@@ -40,7 +40,8 @@ def numbers(matrix: list[list[sm.Expr]], point: int) -> mpmath.matrix:
 def det3(m: mpmath.matrix) -> mpmath.mpf:
     """Sarrus' rule."""
     return sum(
-        m[0, i] * (m[1, (i + 1) % 3] * m[2, (i + 2) % 3] - m[1, (i + 2) % 3] * m[2, (i + 1) % 3]) for i in range(3)
+        m[0, i] * (m[1, (i + 1) % 3] * m[2, (i + 2) % 3] - m[1, (i + 2) % 3] * m[2, (i + 1) % 3])
+        for i in range(3)
     )
 
 

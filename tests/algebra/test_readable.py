@@ -6,8 +6,8 @@ from fractions import Fraction
 
 import pytest
 import sympy as sm
-from algebra.expressions import a, agree, b, elements, k, t, x, y
 
+from algebra.expressions import a, agree, b, elements, k, t, x, y
 from engdyn.algebra import polynomials as backend
 from engdyn.algebra.readable import ONE, ZERO, make_power, make_product, make_sum, to_sympy, tree
 
@@ -50,7 +50,9 @@ def test_forms_are_restored(chosen, given, restored):
 
 
 def test_rates_are_collected_with_factored_coefficients():
-    (element,) = elements((a * x.diff(t) + b * x.diff(t)) * y.diff(t) * cos(x) + k * a**2 + 2 * k * a * b + k * b**2)
+    (element,) = elements(
+        (a * x.diff(t) + b * x.diff(t)) * y.diff(t) * cos(x) + k * a**2 + 2 * k * a * b + k * b**2
+    )
     shown = to_sympy(tree(element))
     assert shown == (a + b) * cos(x) * x.diff(t) * y.diff(t) + k * (a + b) ** 2
 

@@ -95,7 +95,9 @@ def rows_touched(term: sm.Expr, part: str, coordinates) -> set[int]:
     """Equations, counted from 1, that a term of T, V or D enters: Lagrange's operator by sympy."""
     rates = [q.diff(t) for q in coordinates]
     operators = {
-        "kinetic_energy": [term.diff(u).diff(t) - term.diff(q) for q, u in zip(coordinates, rates, strict=True)],
+        "kinetic_energy": [
+            term.diff(u).diff(t) - term.diff(q) for q, u in zip(coordinates, rates, strict=True)
+        ],
         "potential_energy": [term.diff(q) for q in coordinates],
         "dissipation": [term.diff(u) for u in rates],
     }

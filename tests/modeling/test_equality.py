@@ -40,7 +40,10 @@ PROVED = {
     "half angles": (k * (1 - cos(x)), 2 * k * sin(x / 2) ** 2),
     "phase": (k * cos(x - sm.pi / 3), k * (cos(x) + sm.sqrt(3) * sin(x)) / 2),
     "decimal": (0.5 * k * x, k * x / 2),
-    "root": (k * x * (1 - l / sm.sqrt(x**2 + l**2)), k * x - k * x * l * sm.sqrt(l**2 + x**2) / (l**2 + x**2)),
+    "root": (
+        k * x * (1 - l / sm.sqrt(x**2 + l**2)),
+        k * x - k * x * l * sm.sqrt(l**2 + x**2) / (l**2 + x**2),
+    ),
     "root of a square": (k * sm.sqrt(x**2), k * sm.Abs(x)),
     "dry friction": (c * sm.sign(x.diff(t)) * sm.Abs(x.diff(t)), c * x.diff(t)),
     "atan": (k * sm.atan((x**2 + 2 * x) / l), k * sm.atan(((x + 1) ** 2 - 1) / l)),
@@ -79,7 +82,12 @@ NOT_DECIDED = {
     "cosines of pi/7": (8 * k * cos(sm.pi / 7) * cos(2 * sm.pi / 7) * cos(3 * sm.pi / 7), k),
     "inverse functions": (k * sm.asin(sin(x)), k * sm.asin(sin(x)) + 0 * y + k * (sm.acos(0) - sm.pi / 2)),
 }
-TRUE_BUT_BEYOND = {"exponentials that are equal", "hyperbolic identity", "cosines of pi/7", "product of roots"}
+TRUE_BUT_BEYOND = {
+    "exponentials that are equal",
+    "hyperbolic identity",
+    "cosines of pi/7",
+    "product of roots",
+}
 
 
 @pytest.mark.parametrize("name", PROVED)
@@ -126,7 +134,9 @@ for key in ("S03", "S07", "S23"):
     print(BACKEND, system.prove().verdict, ed.prove_equal(wrong, system.newton()).verdict)
 """
     environment = {**__import__("os").environ, "ENGDYN_BACKEND": "sympy"}
-    run = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=environment, check=True)
+    run = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, env=environment, check=True
+    )
     assert run.stdout.split("\n")[:3] == ["sympy proved refuted"] * 3
 
 
@@ -140,7 +150,9 @@ def test_a_witness_is_a_state_that_anyone_can_check():
     ]
     assert proof.witness.quantity == "the acceleration of x"
     np.testing.assert_allclose(found, proof.witness.values, rtol=1e-12)
-    by_hand = [(state["F"] - sign * at["c"] * state["x'"] - at["k"] * state["x"] ** 3) / at["m"] for sign in (1, -1)]
+    by_hand = [
+        (state["F"] - sign * at["c"] * state["x'"] - at["k"] * state["x"] ** 3) / at["m"] for sign in (1, -1)
+    ]
     np.testing.assert_allclose(found, by_hand, rtol=1e-12)
     assert "refuted" in repr(proof)
     assert "the acceleration of x" in repr(proof)
@@ -200,7 +212,10 @@ def _tried(monkeypatch, left, right) -> list[dict]:
 
 # Rows
 
-RIGHT = [(m + k) * x_dd + m * l * cos(y) * y_dd + F, m * l * cos(y) * x_dd + m * l**2 * y_dd + c * sin(y) * y.diff(t)]
+RIGHT = [
+    (m + k) * x_dd + m * l * cos(y) * y_dd + F,
+    m * l * cos(y) * x_dd + m * l**2 * y_dd + c * sin(y) * y.diff(t),
+]
 
 
 def two(*rows: sm.Expr) -> ed.EquationsOfMotion:

@@ -107,7 +107,13 @@ def test_bad_numbers_are_refused(oscillator, arguments, message):
 
 @pytest.mark.parametrize(
     ("force", "state"),
-    [(k / x, 0.0), (k * sm.sqrt(1 - x), 2.0), (k * sm.exp(x), 1e4), (k * x ** sm.Rational(1, 3), -1.0), (k * sm.log(x), 0.0)],
+    [
+        (k / x, 0.0),
+        (k * sm.sqrt(1 - x), 2.0),
+        (k * sm.exp(x), 1e4),
+        (k * x ** sm.Rational(1, 3), -1.0),
+        (k * sm.log(x), 0.0),
+    ],
     ids=str,
 )
 def test_states_without_a_value_are_errors_everywhere(force, state):

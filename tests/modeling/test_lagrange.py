@@ -24,7 +24,13 @@ EULER_LAGRANGE = {
         c * x_d**2 / 2,
         {x: F},
     ),
-    "moving base": (m * (y_d + yb.diff(t)) ** 2 / 2, k * y**2 / 2 + m * g * (y + yb), [y], c * y_d**2 / 2, {}),
+    "moving base": (
+        m * (y_d + yb.diff(t)) ** 2 / 2,
+        k * y**2 / 2 + m * g * (y + yb),
+        [y],
+        c * y_d**2 / 2,
+        {},
+    ),
     "explicit time": (m * (x_d + a * sin(b * t)) ** 2 * sm.exp(-c * t) / 2, k * x * t, [x], 0, {}),
     "root": (m * x_d**2 / 2, k * (sm.sqrt(a**2 + x**2) - b) ** 2, [x], 0, {x: -c * sm.Abs(x_d) * x_d}),
     "quartic dissipation": (m * x_d**2 / 2, 0, [x], c * x_d**4 / 4, {}),
@@ -44,7 +50,13 @@ def test_equations_are_those_of_the_definition(name):
     T, V, q, D, Q = EULER_LAGRANGE[name]
     eom = ed.lagrange(T, V, q, D, Q)
     residual = [
-        (T.diff(e.diff(t)).diff(t) - T.diff(e) + sm.sympify(V).diff(e) + sm.sympify(D).diff(e.diff(t)) - Q.get(e, 0))
+        (
+            T.diff(e.diff(t)).diff(t)
+            - T.diff(e)
+            + sm.sympify(V).diff(e)
+            + sm.sympify(D).diff(e.diff(t))
+            - Q.get(e, 0)
+        )
         for e in q
     ]
     source = np.random.default_rng(11)
@@ -53,7 +65,10 @@ def test_equations_are_those_of_the_definition(name):
         at, u, now = source.uniform(-1, 1, len(q)), source.uniform(-2, 2, len(q)), source.uniform(0, 2)
         inputs = {w.func.__name__: tuple(source.uniform(-1, 1, 3)) for w in eom.inputs}
         acc = eom.accelerations(at, u, values, inputs, now)
-        steps = [dict(zip([e.diff(t, 2) for e in q], acc, strict=True)), dict(zip([e.diff(t) for e in q], u, strict=True))]
+        steps = [
+            dict(zip([e.diff(t, 2) for e in q], acc, strict=True)),
+            dict(zip([e.diff(t) for e in q], u, strict=True)),
+        ]
         steps[0] |= {w.diff(t, 2): inputs[w.func.__name__][2] for w in eom.inputs}
         steps[1] |= {w.diff(t): inputs[w.func.__name__][1] for w in eom.inputs}
         steps += [dict(zip(q, at, strict=True)) | {w: inputs[w.func.__name__][0] for w in eom.inputs}]
@@ -99,7 +114,9 @@ def test_a_knife_edge_keeps_to_its_constraint():
 
 def test_substituting_the_constraint_into_t_is_another_system():
     """Pitfall 7: a nonholonomic constraint must not be put into T before differentiating."""
-    right = ed.lagrange(ROLLING["T"], 0, [x, y, psi], constraints=[ROLLING["constraint"]], speeds=[x_d, psi_d])
+    right = ed.lagrange(
+        ROLLING["T"], 0, [x, y, psi], constraints=[ROLLING["constraint"]], speeds=[x_d, psi_d]
+    )
     reduced = ROLLING["T"].subs(y_d, x_d * sm.tan(psi))
     wrong = ed.lagrange(reduced, 0, [x, psi])
     values = {"m": 2.0, "J": 0.7}

@@ -41,7 +41,9 @@ def pendulum(reactions=None, applied=(), body=None):
 
 def test_a_pendulum_and_its_rod_force():
     eom = ed.newton_euler([pendulum()], [theta], ground, [S])
-    assert ed.prove_equal(eom, ed.lagrange(m * l**2 * theta.diff(t) ** 2 / 2, -m * g * l * sm.cos(theta), [theta]))
+    assert ed.prove_equal(
+        eom, ed.lagrange(m * l**2 * theta.diff(t) ** 2 / 2, -m * g * l * sm.cos(theta), [theta])
+    )
     assert sm.expand(eom.reactions[S] - m * (g * sm.cos(theta) + l * theta.diff(t) ** 2)) == 0
     assert eom.origin == "Newton-Euler"
 
@@ -137,7 +139,9 @@ def test_rows_that_read_zero_equals_zero_are_not_counted():
             "kinematics needs speeds",
         ),
         (
-            lambda: ed.newton_euler([pendulum()], [theta], ground, [S], speeds=[x], kinematics={theta: x, F: x}),
+            lambda: ed.newton_euler(
+                [pendulum()], [theta], ground, [S], speeds=[x], kinematics={theta: x, F: x}
+            ),
             "not among the coordinates",
         ),
         (
@@ -228,8 +232,18 @@ def test_a_spinning_top_by_quasi_velocities_is_eulers_equation():
         inputs = {f"tau{i + 1}": value for i, value in enumerate(couples)}
         np.testing.assert_allclose(eom.accelerations(q, u, values, inputs), expected, rtol=1e-12)
         found = eom.function(values)(0.0, [*q, *u])[:3]
-        omega = np.array([[float(spin.dot(e).subs(dict(zip(rates, found, strict=True))).subs(
-            dict(zip((psi, nutation, phi), q, strict=True)))) for e in body]])
+        omega = np.array(
+            [
+                [
+                    float(
+                        spin.dot(e)
+                        .subs(dict(zip(rates, found, strict=True)))
+                        .subs(dict(zip((psi, nutation, phi), q, strict=True)))
+                    )
+                    for e in body
+                ]
+            ]
+        )
         np.testing.assert_allclose(omega[0], u, atol=1e-12)
 
 
@@ -245,7 +259,10 @@ def test_inertia_may_be_given_about_another_point_and_in_another_frame():
     turned = inertia(ground, 0, 0, J)
     found = [
         ed.newton_euler(
-            [ed.FreeBody(RigidBody("rod", mass_center, rod, m, given), weight, bearing)], [theta], ground, [N_x, N_y]
+            [ed.FreeBody(RigidBody("rod", mass_center, rod, m, given), weight, bearing)],
+            [theta],
+            ground,
+            [N_x, N_y],
         )
         for given in ((about_center, mass_center), (about_pivot, center), (turned, mass_center))
     ]
@@ -276,7 +293,9 @@ def test_an_inertia_that_changes_with_time_contributes_its_rate():
     pivot.set_vel(ground, 0)
     free = ed.FreeBody(RigidBody("skater", pivot, body, m, (inertia(body, 0, 0, J_t), pivot)))
     eom = ed.newton_euler([free], [theta], ground, [])
-    np.testing.assert_allclose(eom.accelerations([0.0], [3.0], {}, {"J": (2.0, -0.5, 0.0)}), [0.5 * 3.0 / 2.0])
+    np.testing.assert_allclose(
+        eom.accelerations([0.0], [3.0], {}, {"J": (2.0, -0.5, 0.0)}), [0.5 * 3.0 / 2.0]
+    )
 
 
 def test_forces_with_accelerations_become_inertia():
@@ -309,7 +328,8 @@ def numbers(system, eom, state):
     for symbol, expression in eom.reactions.items():
         for order in (2, 1, 0):
             at = {
-                (f.diff(t, order) if order else f): state.get(f.func.__name__, (0, 0, 0))[order] for f in functions
+                (f.diff(t, order) if order else f): state.get(f.func.__name__, (0, 0, 0))[order]
+                for f in functions
             }
             expression = expression.subs(at)
         found[symbol.name] = float(expression.subs(known))

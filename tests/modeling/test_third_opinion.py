@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from modeling.third_opinion import MODELS, Sample, kane, lagranges_method
 
 import engdyn as ed
+from modeling.third_opinion import MODELS, Sample, kane, lagranges_method
 
 STATES = 20
 

@@ -126,7 +126,10 @@ def chain(links: int, cart: bool) -> Model:
         T += m * (velocity[0] ** 2 + velocity[1] ** 2) / 2 + J * rate**2 / 2
         V += m * g * (hinge_height - a * cos(angle))
         D += c * (rate - before) ** 2 / 2
-        hinge_velocity = [hinge_velocity[0] + l * cos(angle) * rate, hinge_velocity[1] + l * sin(angle) * rate]
+        hinge_velocity = [
+            hinge_velocity[0] + l * cos(angle) * rate,
+            hinge_velocity[1] + l * sin(angle) * rate,
+        ]
         hinge_height, hinge = hinge_height - l * cos(angle), end
     coordinates = [x, *angles] if cart else list(angles)
     return Model(coordinates, T, V, bodies, frame, unknowns, D, {x: F} if cart else {})
@@ -145,7 +148,9 @@ def heavy_top() -> Model:
     support = sum((r * e for r, e in zip(R, frame, strict=True)), 0 * frame.x)
     free = ed.FreeBody(rigid, [Force(center, -m * g * frame.z)], [Force(pivot, support)])
     psi_d, theta_d, phi_d = (q.diff(t) for q in (psi, theta, phi))
-    T = (A + m * l**2) * (theta_d**2 + (psi_d * sin(theta)) ** 2) / 2 + C * (phi_d + psi_d * cos(theta)) ** 2 / 2
+    T = (A + m * l**2) * (theta_d**2 + (psi_d * sin(theta)) ** 2) / 2 + C * (
+        phi_d + psi_d * cos(theta)
+    ) ** 2 / 2
     ranges = {"theta": (0.4, 2.6)}
     return Model([psi, theta, phi], T, m * g * l * cos(theta), [free], frame, list(R), ranges=ranges)
 
@@ -203,7 +208,7 @@ def press() -> Model:
     O.set_vel(frame, 0)
     crank.orient_axis(frame, theta, frame.z)
     sine = r / L * sin(theta)
-    rod.orient_explicit(frame, sm.Matrix([[root, sine, 0], [-sine, root, 0], [0, 0, 1]]).T)  # turned by -phi
+    rod.orient_explicit(frame, sm.Matrix([[root, sine, 0], [-sine, root, 0], [0, 0, 1]]))  # turned by -phi
     rod.set_ang_vel(frame, -swing * theta_d * frame.z)
     A, B = O.locatenew("A", r * crank.x), O.locatenew("B", x_B * frame.x)
     G_c, G_r = O.locatenew("G_c", a_c * crank.x), A.locatenew("G_r", b_r * rod.x)
@@ -223,7 +228,10 @@ def press() -> Model:
         ),
         ed.FreeBody(
             Particle("ram", B, m_s),
-            [Force(B, (F_p - k_s * (x_B - x_0) - c_g * slope * theta_d) * frame.x), Force(B, -m_s * g * frame.y)],
+            [
+                Force(B, (F_p - k_s * (x_B - x_0) - c_g * slope * theta_d) * frame.x),
+                Force(B, -m_s * g * frame.y),
+            ],
             [Force(B, at_B), Force(B, N * frame.y)],
         ),
     ]
@@ -262,8 +270,11 @@ def satellite() -> Model:
         - n * (-sin(phi) * cos(psi) + cos(phi) * sin(theta) * sin(psi)),
     ]
     T = sum(Ji * wi**2 for Ji, wi in zip(J, w, strict=True)) / 2
-    V = 3 * n**2 / 2 * (
-        J[0] * sin(theta) ** 2 + J[1] * (sin(phi) * cos(theta)) ** 2 + J[2] * (cos(phi) * cos(theta)) ** 2
+    V = (
+        3
+        * n**2
+        / 2
+        * (J[0] * sin(theta) ** 2 + J[1] * (sin(phi) * cos(theta)) ** 2 + J[2] * (cos(phi) * cos(theta)) ** 2)
     )
     D = c * (psi_d**2 + theta_d**2 + phi_d**2 - 2 * phi_d * psi_d * sin(theta)) / 2
     Q = {
@@ -301,7 +312,8 @@ class Sample:
     def known(self, model: Model, eom: ed.EquationsOfMotion) -> list[dict[sm.Expr, float]]:
         """Substitutions, derivatives of higher order first."""
         orders = [
-            {(w.diff(t, k) if k else w): self.inputs[w.func.__name__][k] for w in eom.inputs} for k in (2, 1, 0)
+            {(w.diff(t, k) if k else w): self.inputs[w.func.__name__][k] for w in eom.inputs}
+            for k in (2, 1, 0)
         ]
         return [*orders, {p: self.values[p.name] for p in eom.parameters}, {t: self.time}]
 
@@ -350,7 +362,10 @@ def _solved(model, eom, samples, matrices, rates, speeds) -> list[np.ndarray]:
     at = dict(zip(q, plain[: len(q)], strict=True))
     order = [(w, k) for k in (2, 1, 0) for w in eom.inputs]
     given = [sm.Dummy() for _ in order]
-    inputs = [{(w.diff(t, k) if k else w): d for (w, k), d in zip(order, given, strict=True) if k == o} for o in (2, 1, 0)]
+    inputs = [
+        {(w.diff(t, k) if k else w): d for (w, k), d in zip(order, given, strict=True) if k == o}
+        for o in (2, 1, 0)
+    ]
     parameters = list(eom.parameters)
     arguments = [*plain, *given, *parameters, t]
     functions = []
