@@ -8,8 +8,10 @@ from math import pi
 
 import numpy as np
 import pytest
+import sympy as sm
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sympy.physics.mechanics import dynamicsymbols
 
 import engdyn as ed
 from analysis import small_systems as small
@@ -230,3 +232,15 @@ def test_a_coordinate_becomes_neutral_where_nothing_depends_on_it():
     assert answer.neutral == ("theta",)
     assert [e.q[0] for e in answer] == [0.0]
     assert "neutral: theta" in repr(answer)
+
+
+def test_an_angle_inside_a_root_wraps_too():
+    """A spring between the tip of a crank and a fixed point: theta = pi is one state, not two."""
+    theta = dynamicsymbols("theta")
+    m, r, d, k, rest = sm.symbols("m r d k L_0", positive=True)
+    stretch = sm.sqrt(r**2 + d**2 - 2 * r * d * sm.cos(theta)) - rest
+    crank = ed.lagrange(m * r**2 * theta.diff() ** 2 / 2, k * stretch**2 / 2, [theta])
+    found = ed.equilibria(crank, {"m": 1.0, "r": 0.3, "d": 0.5, "k": 100.0, "L_0": 0.6})
+    relaxed = np.arccos((0.3**2 + 0.5**2 - 0.6**2) / (2 * 0.3 * 0.5))
+    assert found.certified
+    assert [e.q[0] for e in found] == pytest.approx([-relaxed, 0.0, relaxed, np.pi], abs=1e-9)

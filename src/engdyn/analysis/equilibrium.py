@@ -144,19 +144,22 @@ def _region(
 def _only_in_angles(problem: SteadyProblem, unknown: Unknown) -> bool:
     """Whether an unknown occurs nowhere but in sines and cosines of whole multiples of itself."""
     ring = problem.ring
-    at = ring.index[unknown.key]
-    used = {i for row in problem.rows for i in row.generators()}
-    if at in used:
-        return False
-    for i in used & set(ring.definitions):
-        definition = ring.definitions[i]
-        plain = definition.kind in ("sine", "cosine") and ring.keys[i][1:] == (unknown.key[1], 1)
-        if not plain and unknown.key in problem.contents(definition.arguments):
+    at, seen = ring.index[unknown.key], set()
+    waiting = {i for row in problem.rows for i in row.generators()}
+    while waiting:
+        i = waiting.pop()
+        definition = ring.definitions.get(i)
+        if i == at or (definition is not None and at in definition.contains):
             return False
+        whole = ring.keys[i][0] in ("sine", "cosine") and ring.keys[i][1:] == (unknown.key[1], 1)
+        if definition is not None and not whole and i not in seen:  # inside a root, say
+            seen.add(i)
+            waiting |= {j for argument in definition.arguments for j in argument.generators()}
     return True
 
 
 def is_periodic(problem: SteadyProblem, unknown: Unknown, region: tuple[float, float]) -> bool:
+    """Whether a region is one whole turn of an angle in which the equations repeat."""
     whole = abs(region[1] - region[0] - 2 * math.pi) < 1e-9
     return whole and unknown.name in problem.names and _only_in_angles(problem, unknown)
 
