@@ -28,6 +28,13 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "system": ["System"],
         "modeling.equality": ["Proof", "prove_equal"],
         "modeling.equations": ["EquationsOfMotion"],
+        "modeling.inertia": ["PrincipalAxes", "inertia_tensor", "parallel_axis", "principal_axes"],
+        "modeling.kinematics": [
+            "AccelerationTerms",
+            "VectorDerivative",
+            "acceleration_terms",
+            "vector_derivative",
+        ],
         "modeling.lagrange": ["lagrange"],
         "modeling.newton": ["FreeBody", "newton_euler"],
         "analysis.branches": ["Branch", "BranchPoint", "BranchSet", "continue_equilibria"],

@@ -13,6 +13,8 @@ from .errors import (
 )
 from .modeling.equality import Proof, prove_equal
 from .modeling.equations import EquationsOfMotion
+from .modeling.inertia import PrincipalAxes, inertia_tensor, parallel_axis, principal_axes
+from .modeling.kinematics import AccelerationTerms, VectorDerivative, acceleration_terms, vector_derivative
 from .modeling.lagrange import lagrange
 from .modeling.newton import FreeBody, newton_euler
 from .quantities import Coordinate, Input, Parameter
@@ -20,6 +22,7 @@ from .system import System
 
 __version__: str
 __all__ = [
+    "AccelerationTerms",
     "Branch",
     "BranchPoint",
     "BranchSet",
@@ -35,21 +38,28 @@ __all__ = [
     "OutsideRingError",
     "Parameter",
     "ParameterError",
+    "PrincipalAxes",
     "Proof",
     "RecordError",
     "Stability",
     "System",
     "UnknownSystemError",
+    "VectorDerivative",
+    "acceleration_terms",
     "continue_equilibria",
     "course",
     "eigenvalues",
     "equilibria",
+    "inertia_tensor",
     "lagrange",
     "linearize",
     "newton_euler",
+    "parallel_axis",
     "plots",
+    "principal_axes",
     "prove_equal",
     "stability",
     "systems",
+    "vector_derivative",
     "widgets",
 ]

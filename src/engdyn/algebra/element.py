@@ -172,7 +172,7 @@ def without_common_roots(ring: Ring, polynomials: list[Any]) -> list[Any]:
     """
     ps = ring.polynomials
     used = {i for p in polynomials for i, degree in enumerate(ps.degrees(p)) if degree > 0}
-    for index in used & ring.squares.keys():
+    for index in sorted(used & ring.squares.keys()):
         while not ps.is_constant(ring.squares[index]):
             divided = [_over_root(ring, p, index) for p in polynomials]
             if any(p is None for p in divided):

@@ -185,7 +185,7 @@ def _kinematic_scalars(body: FreeBody, path: VectorPath, frame: ReferenceFrame) 
     turning = [body.body.frame] if body.turns else []
     turning += [unit.args[0][1] for part in inertia[0].args for unit in part[1:]] if inertia else []
     vectors += [spin for f in dict.fromkeys(turning) for spin in spin_steps(f, frame)]
-    frames = {*turning, *(f for v in (*vectors, *body.vectors()) for _, f in v.args)}
+    frames = dict.fromkeys([*turning, *(f for v in (*vectors, *body.vectors()) for _, f in v.args)])
     turns = [step for f in frames for a, b in ((frame, f), (f, frame)) for step in rotation_steps(a, b)]
     return measure_numbers(*vectors, *inertia, *turns)
 
