@@ -22,7 +22,7 @@ import engdyn
 CHECKOUT = Path(__file__).resolve().parents[1]
 SOURCES = sorted((CHECKOUT / "src" / "engdyn").rglob("*.py"))
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
-MODULE_LINES, FUNCTION_LINES, PACKAGE_LINES = 330, 40, 12_000  # a module has "about 300"
+MODULE_LINES, FUNCTION_LINES, PACKAGE_LINES = 330, 40, 13_000  # "about 300"; the package: lines of code
 
 
 def _run(*command: str, folder: Path = CHECKOUT) -> subprocess.CompletedProcess[str]:
