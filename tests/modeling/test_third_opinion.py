@@ -8,6 +8,7 @@ import pytest
 import engdyn as ed
 from modeling.third_opinion import MODELS, Sample, kane, lagranges_method
 
+pytestmark = pytest.mark.filterwarnings("ignore:.*Velocity of:UserWarning")  # sympy, of points reached twice
 STATES = 20
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import sympy as sm
 
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["Difference", "differences"]
 
 System = tuple[list[list[Element]], list[Element]]
+Faults = dict[tuple[tuple[int, ...], str, Fraction | None], dict[tuple[int, ...], Fraction]]
 
 
 @dataclass(frozen=True)
@@ -57,11 +58,14 @@ class Difference:
 def differences(eom: EquationsOfMotion, ring: Ring, a: System, b: System) -> tuple[Difference, ...]:
     """Terms that differ between M u̇ − f = 0 of two sets, after matching scaled and reordered rows."""
     keys = [("function", u.expr, 2) if u.is_Derivative else ("function", u, 1) for u in eom.speeds]
-    first = [_residual(ring, mass, force, keys) for mass, force in zip(*a, strict=True)]
+    left = [_residual(ring, mass, force, keys) for mass, force in zip(*a, strict=True)]
     second = [_residual(ring, mass, force, keys) for mass, force in zip(*b, strict=True)]
     found: list[Difference] = []
-    for i, row in enumerate(_matched(first, second, keys, ring)):
-        found += _row_differences(i + 1, row, second[i])
+    for number, wanted in enumerate(second, 1):
+        closest = min((_closest(row, wanted) + (i,) for i, row in enumerate(left)), key=lambda c: c[:2])
+        _, _, faults, common, at = closest
+        left.pop(at)
+        found += _told(number, faults, common)
     return tuple(found)
 
 
@@ -69,64 +73,78 @@ def _residual(ring: Ring, mass: Sequence[Element], force: Element, keys: Sequenc
     total = -force
     for entry, key in zip(mass, keys, strict=True):
         if not entry.is_zero():
-            total = total + entry * acceleration(ring, key)
+            total = total + entry * ring.generator(key)
     return total
 
 
-def acceleration(ring: Ring, key: tuple) -> Element:
-    """The generator of an acceleration (every ring of equations of motion has it)."""
-    return ring.generator(key)
+def _closest(row: Element, wanted: Element) -> tuple[int, int, Faults, Element]:
+    """The faults of a row, multiplied by the factor that leaves fewest; their number comes first."""
+    best = None
+    for scale in _scales(row, wanted):
+        faults, common = _faults(row * scale, wanted)
+        cost = len(faults), sum(map(len, faults.values()))
+        if best is None or cost < best[:2]:
+            best = (*cost, faults, common)
+        if best[0] == 0:
+            break
+    return best
 
 
-def _matched(first: list[Element], second: list[Element], keys: Sequence[tuple], ring: Ring) -> list[Element]:
-    """Rows of the first set, reordered and scaled by a number so that they resemble the second's."""
-    left, rows = list(first), []
-    for wanted in second:
-        best = max(left, key=lambda row: _resemblance(row, wanted))
-        left.remove(best)
-        rows.append(best * _scale(best, wanted))
-    return rows
+def _scales(row: Element, wanted: Element) -> Iterator[Element]:
+    """Factors by which a row may have been divided: 1, and the ratios of corresponding terms.
+
+    Terms correspond when they have the same speeds and accelerations: θ̈ with m l² θ̈.
+    """
+    tried = [row.ring.one]
+    yield tried[0]
+    own, other = _by_motion(row), _by_motion(wanted)
+    for motion in own.keys() & other.keys():
+        ratio = other[motion] / own[motion]
+        if not any(ratio.equals(known) for known in tried):
+            tried.append(ratio)
+            yield ratio
 
 
-def _terms(element: Element) -> dict[tuple[int, ...], Fraction]:
-    return dict(element.ring.polynomials.terms(element.numerator))
+def _by_motion(element: Element) -> dict[tuple[int, ...], Element]:
+    """Coefficients of an element's products of rates, in the order in which they occur."""
+    ring, parts = element.ring, {}
+    for exponents, coefficient in ring.polynomials.terms(element.numerator):
+        motion = _motion(ring, exponents)
+        rest = tuple(e - m for e, m in zip(exponents, motion, strict=True))
+        parts.setdefault(motion, {})[rest] = coefficient
+    below = ring.one if element.denominator is None else Element(ring, element.denominator)
+    return {
+        motion: Element(ring, ring.polynomials.from_terms(terms)) / below for motion, terms in parts.items()
+    }
 
 
-def _resemblance(row: Element, wanted: Element) -> int:
-    return len(_terms(row).keys() & _terms(wanted).keys())
+def _motion(ring: Ring, exponents: tuple[int, ...]) -> tuple[int, ...]:
+    """The exponents of time derivatives alone."""
+    return tuple(
+        e if key[0] == "function" and key[2] > 0 else 0 for e, key in zip(exponents, ring.keys, strict=True)
+    )
 
 
-def _scale(row: Element, wanted: Element) -> Fraction:
-    """The factor that makes most terms of a row agree with those of the other."""
-    a, b = _terms(row), _terms(wanted)
-    votes: dict[Fraction, int] = {}
-    for exponents in a.keys() & b.keys():
-        ratio = b[exponents] / a[exponents]
-        votes[ratio] = votes.get(ratio, 0) + 1
-    if votes.get(Fraction(1), 0) * 2 >= sum(votes.values()):
-        return Fraction(1)
-    return max(votes, key=lambda ratio: votes[ratio])
-
-
-def _row_differences(number: int, row: Element, wanted: Element) -> list[Difference]:
-    """Compare two residuals term by term; terms with the same fault and the same rates are taken together."""
+def _faults(row: Element, wanted: Element) -> tuple[Faults, Element]:
+    """Terms that differ, by rates and kind of fault, and the denominator that they all have."""
     ring = row.ring
     one = ring.polynomials.one
     below = [e.denominator if e.denominator is not None else one for e in (row, wanted)]
-    a = _terms(Element(ring, ring.reduce(row.numerator * below[1])))
-    b = _terms(Element(ring, ring.reduce(wanted.numerator * below[0])))
-    rates = {i for i, key in enumerate(ring.keys) if key[0] == "function" and key[2] > 0}
-    groups: dict[tuple[Any, ...], dict] = {}
-    for exponents in a.keys() | b.keys():
+    numerators = [ring.reduce(row.numerator * below[1]), ring.reduce(wanted.numerator * below[0])]
+    a, b = (dict(ring.polynomials.terms(p)) for p in numerators)
+    groups: Faults = {}
+    for exponents in a | b:
         given, expected = a.get(exponents, Fraction(0)), b.get(exponents, Fraction(0))
-        if given == expected:
-            continue
-        kind, factor = _fault(given, expected)
-        motion = tuple(e if i in rates else 0 for i, e in enumerate(exponents))
-        groups.setdefault((motion, kind, factor), {})[exponents] = expected if kind != "extra" else given
-    common = Element(ring, below[0] * below[1])
-    found = []
-    for (_, kind, factor), terms in sorted(groups.items(), key=lambda item: str(item[0])):
+        if given != expected:
+            kind, factor = _fault(given, expected)
+            group = groups.setdefault((_motion(ring, exponents), kind, factor), {})
+            group[exponents] = expected if kind != "extra" else given
+    return groups, Element(ring, below[0] * below[1])
+
+
+def _told(number: int, faults: Faults, common: Element) -> list[Difference]:
+    ring, found = common.ring, []
+    for (_, kind, factor), terms in sorted(faults.items(), key=lambda item: str(item[0])):
         term = Element(ring, ring.polynomials.from_terms(terms)) / common
         found.append(Difference(number, kind, to_sympy(tree(term)), factor))
     return found
