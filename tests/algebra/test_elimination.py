@@ -136,6 +136,28 @@ def test_common_factors_of_a_row_are_cancelled():
     assert [to_sympy(tree(e)) for e in primitive(row)] == [0, 1, 0]
 
 
+@pytest.mark.parametrize("root", [s, sm.sqrt(1 + x**2), sm.Abs(x + a)], ids=str)
+def test_denominators_with_sines_and_roots_are_cleared(root):
+    """(1 + g)/g times g is (g + g^2)/g: with g^2 replaced, no common factor is left to see."""
+    (row,) = rows_of([[(1 + root) / root, k / (2 + root), x]])
+    cleared = primitive(row)
+    assert all(e.denominator is None for e in cleared)
+    first, second, third = (to_sympy(tree(e)) for e in cleared)
+    assert agree(first * k * root, second * (1 + root) * (2 + root))
+    assert agree(first * x * root, third * (1 + root))
+
+
+@pytest.mark.parametrize("root", [s, sm.sqrt(1 + x**2), sm.Abs(x + a)], ids=str)
+def test_sums_of_quotients_by_powers_of_a_root_do_not_grow(root):
+    total = elements(*(k / root**i for i in range(1, 7)))
+    summed = total[0]
+    for term in total[1:]:
+        summed = summed + term
+    assert agree(to_sympy(tree(summed)), sum(k / root**i for i in range(1, 7)))
+    assert max(summed.ring.polynomials.degrees(summed.denominator)) <= 6
+    assert all(summed.ring.polynomials.degrees(summed.denominator)[i] == 0 for i in summed.ring.squares)
+
+
 def test_a_common_sine_does_not_survive_elimination():
     """x cos + N sin = 0 and x' sin + N (1 - cos^2) = 0: without N the sine must be gone, too."""
     matrix = [[s, c, a], [1 - c**2, s * x, s * k]]

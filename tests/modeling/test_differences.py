@@ -59,6 +59,30 @@ def test_mistakes_are_named_in_scaled_and_reordered_rows():
     assert found(-3 * (CART[1] + c * theta_d), CART[0] / 7) == [(2, "factor", c * theta_d, Fraction(2))]
 
 
+@pytest.mark.parametrize(
+    "scale",
+    [1 / (m * l**2), cos(theta), 1 / (m * l * cos(theta)), sm.sqrt(1 + theta**2), -sm.Rational(7, 3) * M],
+    ids=str,
+)
+def test_rows_divided_by_masses_and_functions_are_compared_as_they_were(scale):
+    """Students write theta'' = ..., the definition says m l^2 theta'' = ...: one mistake is still one."""
+    assert found(CART[0], scale * (CART[1] - 2 * m * g * l * sin(theta))) == [
+        (2, "sign", m * g * l * sin(theta), Fraction(-1))
+    ]
+    assert found(scale * (CART[0] - k * x), CART[1]) == [(1, "missing", k * x, None)]
+    assert found(CART[0], scale * (CART[1] + m * l**2 * theta_dd)) == [
+        (2, "factor", m * l**2 * theta_dd, Fraction(2))
+    ]
+
+
+def test_a_long_list_of_differences_is_cut_short():
+    rows = [CART[0] + sum(sm.Symbol(f"p{i}") * theta**i * x_d**i for i in range(1, 15)), CART[1]]
+    proof = ed.prove_equal(ed.EquationsOfMotion.from_residuals(rows, [x, theta]), RIGHT)
+    assert len(proof.differences) == 14
+    assert "and 6 more" in repr(proof)
+    assert len(repr(proof).splitlines()) == 11
+
+
 def test_two_mistakes_are_both_named():
     rows = found(CART[0] - 2 * k * x, CART[1] - c * theta_d)
     assert {(n, kind) for n, kind, *_ in rows} == {(1, "sign"), (2, "missing")}

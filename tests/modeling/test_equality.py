@@ -13,6 +13,7 @@ from sympy.physics.mechanics import dynamicsymbols
 import engdyn as ed
 from engdyn.algebra import polynomials
 from engdyn.modeling import witness
+from modeling.third_opinion import chain
 
 t = dynamicsymbols._t
 x, y, F = dynamicsymbols("x y F")
@@ -239,6 +240,19 @@ def test_rows_may_be_scaled_reordered_and_combined(rows):
     assert ed.prove_equal(two(*RIGHT), two(*rows)).verdict == "proved"
     wrong = [rows[0], rows[1] + R(1, 1000) * RIGHT[0] + R(1, 1000) * sin(y) ** 2]
     assert ed.prove_equal(two(*wrong), two(*RIGHT)).verdict == "refuted"
+
+
+def test_combined_rows_of_a_long_chain_are_proved():
+    """Five equations, two of them turned into each other: only these two need comparing."""
+    model = chain(4, cart=True)
+    eom = model.lagrange()
+    unknown = sm.Matrix([q.diff(t, 2) for q in model.coordinates])
+    rows = list(eom.mass_matrix * unknown - eom.forcing)
+    angle = model.coordinates[1]
+    rows[:2] = [cos(angle) * rows[0] + sin(angle) * rows[1], -sin(angle) * rows[0] + cos(angle) * rows[1]]
+    turned = ed.EquationsOfMotion.from_residuals([rows[i] for i in (4, 0, 3, 1, 2)], model.coordinates)
+    assert ed.prove_equal(turned, eom).verdict == "proved"
+    assert ed.prove_equal(eom, turned).verdict == "proved"
 
 
 def test_coordinates_may_be_listed_in_another_order():

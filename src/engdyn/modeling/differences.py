@@ -58,15 +58,24 @@ class Difference:
 def differences(eom: EquationsOfMotion, ring: Ring, a: System, b: System) -> tuple[Difference, ...]:
     """Terms that differ between M u̇ − f = 0 of two sets, after matching scaled and reordered rows."""
     keys = [("function", u.expr, 2) if u.is_Derivative else ("function", u, 1) for u in eom.speeds]
-    left = [_residual(ring, mass, force, keys) for mass, force in zip(*a, strict=True)]
+    first = [_residual(ring, mass, force, keys) for mass, force in zip(*a, strict=True)]
     second = [_residual(ring, mass, force, keys) for mass, force in zip(*b, strict=True)]
-    found: list[Difference] = []
-    for number, wanted in enumerate(second, 1):
-        closest = min((_closest(row, wanted) + (i,) for i, row in enumerate(left)), key=lambda c: c[:2])
-        _, _, faults, common, at = closest
-        left.pop(at)
-        found += _told(number, faults, common)
-    return tuple(found)
+    told: dict[int, list[Difference]] = {}
+    taken: set[int] = set()
+    for j, wanted in enumerate(second):
+        same = next((i for i, row in enumerate(first) if i not in taken and row.equals(wanted)), None)
+        if same is not None:
+            taken.add(same)
+            told[j] = []
+    open_rows = [i for i in range(len(first)) if i not in taken]
+    pairs = [
+        (*_closest(first[i], second[j]), i, j) for i in open_rows for j in range(len(second)) if j not in told
+    ]
+    for *_, faults, common, i, j in sorted(pairs, key=lambda pair: pair[:2]):
+        if i not in taken and j not in told:  # the rows that resemble each other most belong together
+            taken.add(i)
+            told[j] = _told(j + 1, faults, common)
+    return tuple(difference for j in sorted(told) for difference in told[j])
 
 
 def _residual(ring: Ring, mass: Sequence[Element], force: Element, keys: Sequence[tuple]) -> Element:
