@@ -157,6 +157,8 @@ def test_symbols_know_what_is_admissible():
     assert Parameter("k", "N/m", 1.0, "spring", "nonnegative").symbol.is_nonnegative
     assert Parameter("m", "kg", 1.0, "mass").symbol.is_positive
     assert Parameter("w", "rad/s", 1.0, "spin", "any").symbol.is_real
+    with pytest.raises(ed.ParameterError, match="choose one of positive, nonnegative, any"):
+        Parameter("k", "N/m", 1.0, "spring", "negative")
     own = sm.Symbol("anything")
     assert Parameter(own, "m", 1.0, "length").symbol is own
     assert Parameter(own, "m", 1.0, "length").name == "anything"

@@ -41,12 +41,16 @@ class Parameter:
     span: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
+        assumptions = {
+            "positive": {"positive": True},
+            "nonnegative": {"nonnegative": True},
+            "any": {"real": True},
+        }
+        if self.admissible not in assumptions:
+            raise ParameterError(
+                f"parameter {self.symbol}: admissible is {self.admissible!r}; choose one of {', '.join(assumptions)}"
+            )
         if isinstance(self.symbol, str):
-            assumptions = {
-                "positive": {"positive": True},
-                "nonnegative": {"nonnegative": True},
-                "any": {"real": True},
-            }
             object.__setattr__(self, "symbol", sm.Symbol(self.symbol, **assumptions[self.admissible]))
 
     @property

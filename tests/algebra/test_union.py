@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sympy as sm
-from hypothesis import given, settings
+from hypothesis import given, reject, settings
 from hypothesis import strategies as st
 from sympy.physics.mechanics import dynamicsymbols
 
@@ -11,6 +11,7 @@ from algebra.expressions import a, agree, elements, functions, k, x, y
 from engdyn.algebra.conversion import Converter
 from engdyn.algebra.readable import to_sympy, tree
 from engdyn.algebra.union import common_ring
+from engdyn.errors import OutsideRingError
 
 
 def carried(*expressions):
@@ -40,8 +41,12 @@ def test_derivatives_in_the_common_ring_are_those_of_the_own(expression, variabl
     ring, (_, p) = carried(sm.cos(x / 2) + sm.sin(y / 3), expression)
     key = ("symbol", variable) if variable.is_Symbol else ("function", variable, 0)
     (own,) = elements(expression)
-    expected = to_sympy(tree(own.ring.partial(key)(own)))
-    assert agree(to_sympy(tree(ring.partial(key)(p))), expected, digits=22)
+    try:
+        found, expected = (to_sympy(tree(e.ring.partial(key)(e))) for e in (p, own))
+    except OutsideRingError:  # too large for the backend at work
+        reject()
+    assert p.ring is ring
+    assert agree(found, expected, digits=22)
 
 
 def test_other_divisors_of_an_angle():

@@ -8,6 +8,7 @@ from math import pi
 import numpy as np
 import pytest
 import sympy as sm
+from sympy.physics.mechanics import dynamicsymbols
 
 import engdyn as ed
 from analysis import small_systems as small
@@ -185,3 +186,12 @@ def test_errors_bound_what_rounding_does():
             nearest = [min(abs(x - y) for y in exact) for x in found.eigenvalues]
             assert all(a <= b for a, b in zip(nearest, found.errors, strict=True))
             assert max(found.errors) < 1e-6 * max(abs(found.eigenvalues))
+
+
+def test_pi_is_not_zero():
+    """A stiffness pi k holds the mass: nothing is neutral."""
+    x = dynamicsymbols("x")
+    m, k = sm.symbols("m k", positive=True)
+    oscillator = ed.lagrange(m * x.diff() ** 2 / 2, sm.pi * k * x**2 / 2, [x])
+    found = ed.stability(ed.linearize(oscillator, {"x": 0}, {"m": 1.0, "k": 2.0}))
+    assert (found.verdict, found.neutral) == ("marginal", 0)

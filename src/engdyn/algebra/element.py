@@ -13,10 +13,6 @@ if TYPE_CHECKING:
 __all__ = ["Element", "add_angles", "without_common_roots"]
 
 
-#: Products of polynomials that could have more terms than this are refused: they would take minutes.
-LARGEST_PRODUCT = 300_000
-
-
 class Element:
     """An element of a ring: numerator over denominator (None for 1), both polynomials."""
 
@@ -76,7 +72,7 @@ class Element:
     def __mul__(self, other: Any) -> Element:
         other = self._coerce(other)
         a, b = self.denominator, other.denominator
-        if len(self.numerator) * len(other.numerator) > LARGEST_PRODUCT:
+        if len(self.numerator) * len(other.numerator) > self.ring.polynomials.largest_product:
             raise OutsideRingError(
                 "an expression has too many terms to be expanded exactly: write it in shorter parts"
             )

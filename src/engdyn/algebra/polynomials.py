@@ -40,6 +40,9 @@ def polynomials(count: int) -> FlintPolynomials | SympyPolynomials:
 class FlintPolynomials:
     """Polynomials in `count` generators on python-flint."""
 
+    #: Products that could have more terms than this are refused: they would take minutes.
+    largest_product = 300_000
+
     def __init__(self, count: int):
         import flint
 
@@ -119,6 +122,8 @@ class FlintPolynomials:
 
 class SympyPolynomials:
     """Polynomials in `count` generators on the rings of ``sympy.polys``: pure Python, slower."""
+
+    largest_product = 30_000
 
     def __init__(self, count: int):
         from sympy import QQ, lex

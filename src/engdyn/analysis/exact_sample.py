@@ -74,7 +74,9 @@ class ExactSample:
     def _given(self, linear: LinearSystem, zeros_too: bool) -> dict[tuple[Any, ...], Fraction]:
         eom, at = linear.eom, linear.at
         q_keys, u_keys, a_keys = motion_keys(eom)
-        given: dict[tuple[Any, ...], Fraction] = {}
+        given: dict[tuple[Any, ...], Fraction] = {
+            ("symbol", sm.pi): self._random()
+        }  # transcendental: any number
         for key, x in zip([*u_keys, *a_keys, *q_keys], [*at.speeds, *at.accelerations, *at.q], strict=True):
             given[key] = Fraction(repr(float(x))) if abs(x) > 1e-12 else Fraction(0)
         if self._moved:
