@@ -12,6 +12,7 @@ from fractions import Fraction
 
 import sympy as sm
 
+from engdyn.algebra.expressions import as_expression
 from engdyn.algebra.ring import Definition, Element, Ring, add_angles
 from engdyn.algebra.roots import define_call, define_magnitude, define_root
 from engdyn.algebra.scan import (
@@ -54,7 +55,7 @@ class Converter:
         scan = Scan(self._substitutions)
         for key in extra:
             scan.plain.setdefault(key)
-        scan.read(sm.sympify(e) if not isinstance(e, sm.Basic) else e for e in expressions)
+        scan.read(e if isinstance(e, sm.Basic) else as_expression(e) for e in expressions)
         self.ring = Ring(scan.keys())
         self._divisors = scan.divisors
         self._known: dict[sm.Basic, Element] = {}
@@ -76,7 +77,7 @@ class Converter:
 
     def _translate(self, expr: sm.Basic) -> Element:
         if not isinstance(expr, sm.Basic):
-            return self.convert(sm.sympify(expr))
+            return self.convert(as_expression(expr))
         if expr.is_Add:
             total = self.convert(expr.args[0])
             for term in expr.args[1:]:

@@ -6,11 +6,11 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.codegen import compile_elements
 from engdyn.algebra.conversion import Converter
+from engdyn.algebra.expressions import as_expression
 from engdyn.analysis.equilibrium import Equilibrium, is_periodic
 from engdyn.analysis.slopes import as_products, compile_products, slopes
 from engdyn.analysis.steady import SteadyProblem
@@ -65,7 +65,7 @@ class Family:
         found = []
         for w, triple in self.eom.defaults.items():
             if w.func.__name__ not in given:
-                symbols = [sm.sympify(e).free_symbols for e in triple]
+                symbols = [as_expression(e).free_symbols for e in triple]
                 found += [
                     (w, k, triple[k])
                     for k in (1, 2)

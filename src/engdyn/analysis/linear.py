@@ -15,6 +15,7 @@ import numpy as np
 import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
+from engdyn.algebra.expressions import as_expression
 from engdyn.analysis.equilibrium import Equilibrium
 from engdyn.analysis.small_motion import assemble, compiled_blocks, unpacked
 from engdyn.analysis.symbolic import symbolic_matrices
@@ -195,7 +196,7 @@ def _numeric(
 
 def _has_time(eom: EquationsOfMotion) -> bool:
     """Whether time occurs, explicitly or through a prescribed motion."""
-    moving = any(sm.sympify(part).has(dynamicsymbols._t) for d in eom.defaults.values() for part in d)
+    moving = any(as_expression(part).has(dynamicsymbols._t) for d in eom.defaults.values() for part in d)
     return moving or ("symbol", dynamicsymbols._t) in eom.occurring
 
 

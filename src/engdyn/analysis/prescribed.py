@@ -8,9 +8,9 @@ from fractions import Fraction
 from numbers import Real
 from typing import Any
 
-import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
+from engdyn.algebra.expressions import as_expression
 from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.numbers import input_values, parameter_values
@@ -60,6 +60,6 @@ def known_numbers(
     for (w, k), value in zip(order, input_values(eom, inputs, values), strict=True):
         default = eom.defaults.get(w)
         follows = default is not None and w.func.__name__ not in inputs
-        if not (follows and sm.sympify(default[k]).has(dynamicsymbols._t)):
+        if not (follows and as_expression(default[k]).has(dynamicsymbols._t)):
             numbers["function", w, k] = as_rational(value)
     return numbers

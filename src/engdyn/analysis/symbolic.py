@@ -9,6 +9,7 @@ from typing import Any
 import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
+from engdyn.algebra.expressions import as_expression
 from engdyn.algebra.readable import to_sympy, tree
 from engdyn.analysis.slopes import Products
 from engdyn.analysis.small_motion import BLOCKS, block_shapes, motion_keys, small_motion
@@ -82,5 +83,5 @@ def _check_inputs(eom: EquationsOfMotion, given: Mapping[str, Any]) -> None:
 def _expression(value: Any) -> sm.Expr:
     """A number or an expression, never text."""
     if isinstance(value, Number | sm.Expr):
-        return sm.sympify(value)
+        return as_expression(value)
     raise EngdynError(f"{value!r} is not a quantity: give a number or a sympy expression")

@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
+from engdyn.algebra.expressions import as_expression
 from engdyn.course.case import Case
 from engdyn.course.dimensions import DimensionMismatch, dimension_of, system_dimensions
 from engdyn.course.equation_hints import explain, residuals, same_motion
@@ -125,7 +126,7 @@ def _drives(case: Case) -> dict[sm.Expr, sm.Expr]:
         if given.default is not None:
             for order, part in enumerate(given.default):
                 symbol = given.symbol.diff(t, order) if order else given.symbol
-                found[symbol] = sm.sympify(part)
+                found[symbol] = as_expression(part)
     return found
 
 

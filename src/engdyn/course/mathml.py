@@ -15,6 +15,8 @@ from sympy.physics.vector import Dyadic, ReferenceFrame, Vector, dynamicsymbols
 from sympy.physics.vector.printing import vlatex
 from sympy.printing.mathml import MathMLPresentationPrinter
 
+from engdyn.algebra.expressions import as_expression
+
 __all__ = ["dyadic", "equation", "formula", "vector"]
 
 LONGEST = 78
@@ -94,7 +96,7 @@ def subscripted(name: str) -> str:
 
 def markup(expr: Any) -> str:
     """MathML of an expression, without the surrounding element."""
-    text = _Printer({"fold_short_frac": False}).doprint(sm.sympify(expr))
+    text = _Printer({"fold_short_frac": False}).doprint(as_expression(expr))
     for entity, letter in PLAIN.items():
         text = text.replace(entity, letter)
     return text
@@ -124,7 +126,7 @@ def equation(left: Any, right: Any) -> str:
 
 def _lines(expr: Any) -> list[str]:
     """The terms of a sum, gathered into lines."""
-    terms = sm.Add.make_args(sm.sympify(expr))
+    terms = sm.Add.make_args(as_expression(expr))
     terms = sm.Add(*terms).as_ordered_terms() if len(terms) > 1 else list(terms)
     lines, width = [""], 0
     for i, term in enumerate(terms):

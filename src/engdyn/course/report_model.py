@@ -10,6 +10,7 @@ import sympy as sm
 from sympy.physics.mechanics import Force, Particle
 from sympy.physics.vector import dynamicsymbols
 
+from engdyn.algebra.expressions import as_expression
 from engdyn.course.mathml import dyadic, equation, formula, vector
 from engdyn.course.report_tables import number, paragraph, part_of_pi, table, unit
 from engdyn.modeling.equality import Proof
@@ -73,7 +74,7 @@ def free_bodies(bodies: Sequence[FreeBody], frame: Any) -> str:
     )
     for body in bodies:
         kind = "particle" if isinstance(body.body, Particle) else "rigid body"
-        about = f"{kind}, mass {formula(sm.sympify(body.body.mass))}"
+        about = f"{kind}, mass {formula(as_expression(body.body.mass))}"
         if body.turns:
             about += f", inertia about its mass center {dyadic(body.body.central_inertia)}"
         rows = [_load(load, "known") for load in body.applied] + [
@@ -102,11 +103,11 @@ def balances(eom: EquationsOfMotion) -> str:
 def energies(system: System) -> str:
     """T, V, D and the generalized forces."""
     named = [("T", system.kinetic_energy), ("V", system.potential_energy), ("D", system.dissipation)]
-    text = "".join(equation(sm.Symbol(letter), sm.sympify(e)) for letter, e in named)
+    text = "".join(equation(sm.Symbol(letter), as_expression(e)) for letter, e in named)
     for q, force in system.generalized_forces.items():
-        text += equation(sm.Symbol(f"Q_{q.func.__name__}"), sm.sympify(force))
+        text += equation(sm.Symbol(f"Q_{q.func.__name__}"), as_expression(force))
     for constraint in system.constraints:
-        text += equation(sm.sympify(constraint), sm.S.Zero)
+        text += equation(as_expression(constraint), sm.S.Zero)
     return text
 
 

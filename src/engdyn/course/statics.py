@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
+from engdyn.algebra.expressions import as_expression
 from engdyn.system import System
 
 __all__ = ["linear_solution", "small_angle", "steady_residuals"]
@@ -27,7 +28,7 @@ def steady_residuals(system: System) -> list[sm.Expr]:
         default = getattr(moving, "default", None) or (sm.S.Zero, sm.S.Zero, sm.S.Zero)
         for order, part in enumerate(default):
             if order or moving in system.inputs:
-                replaced[moving.symbol.diff(t, order) if order else moving.symbol] = sm.sympify(part)
+                replaced[moving.symbol.diff(t, order) if order else moving.symbol] = as_expression(part)
     return [sm.expand_trig(-force.xreplace(replaced)) for force in eom.forcing]
 
 

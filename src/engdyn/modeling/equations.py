@@ -15,6 +15,7 @@ import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.codegen import compile_elements
+from engdyn.algebra.expressions import as_expression
 from engdyn.algebra.readable import to_sympy, tree
 from engdyn.algebra.ring import Element, Ring
 from engdyn.errors import EngdynError
@@ -155,7 +156,9 @@ class EquationsOfMotion:
         """Symbols of the equations, sorted by name (those of the defaults included)."""
         found = {key[1] for key in self.occurring if key[0] == "symbol"}
         for default in self.defaults.values():
-            found |= {s for part in default for s in sm.sympify(part).free_symbols}
+            found |= {
+                s for part in default for s in as_expression(part, "the default of an input").free_symbols
+            }
         return tuple(sorted(found - {dynamicsymbols._t, sm.pi}, key=lambda s: s.name))
 
     @cached_property
@@ -252,7 +255,7 @@ def _residual(equation: Any) -> sm.Expr:
     if isinstance(equation, sm.Expr):
         return equation
     if isinstance(equation, int | float):
-        return sm.sympify(equation)
+        return as_expression(equation)
     raise EngdynError(
         f"{equation!r} is not an equation: give sympy expressions that are zero, or sympy.Eq(left, right)"
     )

@@ -12,6 +12,7 @@ from typing import Any
 import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
+from engdyn.algebra.expressions import as_expression
 from engdyn.algebra.readable import to_sympy, tree
 from engdyn.algebra.ring import Derivation, Element
 from engdyn.errors import EngdynError
@@ -102,7 +103,7 @@ def lagrange(
 
 def _energy(expr: Any, name: str) -> sm.Expr:
     if isinstance(expr, int | float):
-        return sm.sympify(expr)
+        return as_expression(expr)
     if not isinstance(expr, sm.Expr):
         raise EngdynError(f"the {name} energy is {expr!r}: give a sympy expression")
     return expr
@@ -115,7 +116,7 @@ def _forces(
     unknown = [q for q in given if q not in coordinates]
     if unknown:
         raise EngdynError(f"forces names {unknown}, which are not among the coordinates {list(coordinates)}")
-    return {q: sm.sympify(given.get(q, 0)) for q in coordinates}
+    return {q: as_expression(given.get(q, 0), f"the generalized force of {q}") for q in coordinates}
 
 
 def _equations(

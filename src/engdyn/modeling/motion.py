@@ -14,6 +14,7 @@ from typing import Any
 import sympy as sm
 from sympy.physics.vector import Dyadic, Point, ReferenceFrame, Vector
 
+from engdyn.algebra.expressions import as_expression
 from engdyn.algebra.ring import Element
 from engdyn.errors import EngdynError
 from engdyn.modeling.state import State
@@ -93,7 +94,7 @@ def measure_numbers(*quantities: Any) -> list[sm.Expr]:
         elif isinstance(quantity, sm.MatrixBase):
             found += list(quantity)
         else:
-            found.append(sm.sympify(quantity))
+            found.append(as_expression(quantity))
     return found
 
 

@@ -14,6 +14,7 @@ import sympy as sm
 from sympy.physics.mechanics import Force
 from sympy.physics.vector import ReferenceFrame, dynamicsymbols
 
+from engdyn.algebra.expressions import as_expression
 from engdyn.errors import EngdynError
 from engdyn.modeling.balances import Balance, Balances
 from engdyn.modeling.equations import EquationsOfMotion
@@ -195,7 +196,7 @@ def _balances(body: FreeBody, motion: Motion, paths: dict) -> list[Balance]:
     state, inertial = motion.state, motion.frame
     axes = body.preferred_frame(inertial)
     velocity = motion.velocity(paths[body.center])
-    mass = state.convert(sm.sympify(body.body.mass))
+    mass = state.convert(as_expression(body.body.mass))
     inertia = [mass * a for a in motion.turned(motion.derivative(velocity), inertial, axes)]
     forces = [
         motion.components(load.force, axes)
@@ -221,7 +222,7 @@ def _moment_balance(body: FreeBody, motion: Motion) -> list[Balance]:
     zero = state.ring.zero
     momentum = [zero, zero, zero]
     for measure, left, right in dyadic.args:
-        value = state.convert(sm.sympify(measure)) * dot(motion.components(right, axes), spin)
+        value = state.convert(as_expression(measure)) * dot(motion.components(right, axes), spin)
         momentum = [h + value * e for h, e in zip(momentum, motion.components(left, axes), strict=True)]
     axes_spin = motion.angular_velocity(axes, axes)
     turning = cross(axes_spin, momentum)

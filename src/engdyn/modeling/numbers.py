@@ -12,6 +12,7 @@ from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.codegen import compile_elements
 from engdyn.algebra.conversion import Converter
+from engdyn.algebra.expressions import as_expression
 from engdyn.errors import EngdynError
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ def _default(eom: EquationsOfMotion, function: sm.Expr) -> tuple[list[sm.Symbol]
     """Value, rate and acceleration that hold where an input is not given, compiled once."""
     cache = eom.__dict__.setdefault("_defaults", {})
     if function not in cache:
-        parts = [sm.sympify(part) for part in eom.defaults[function]]
+        parts = [as_expression(part, "the default of an input") for part in eom.defaults[function]]
         t = dynamicsymbols._t
         symbols = sorted({s for part in parts for s in part.free_symbols} - {t}, key=lambda s: s.name)
         keys = [("symbol", s) for s in (*symbols, t)]

@@ -14,6 +14,7 @@ from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.conversion import Converter
 from engdyn.algebra.elimination import eliminate, solve
+from engdyn.algebra.expressions import as_expression
 from engdyn.algebra.readable import to_sympy, tree
 from engdyn.algebra.ring import Derivation, Element, Ring
 from engdyn.algebra.scan import derivative_key
@@ -93,7 +94,7 @@ class State:
 
     def _prescribed(self, moving: Iterable[sm.Expr], known: list[Key]) -> list[Key]:
         """Keys of prescribed motions and their first two derivatives, as far as they are needed."""
-        functions = {f for e in moving for f in sm.sympify(e).atoms(AppliedUndef)}
+        functions = {f for e in moving for f in as_expression(e).atoms(AppliedUndef)}
         own = {key[1] for key in known}
         return [("function", f, k) for f in sorted(functions - own, key=str) for k in (0, 1, 2)]
 

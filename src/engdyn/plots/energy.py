@@ -14,6 +14,7 @@ from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.codegen import compile_elements
 from engdyn.algebra.conversion import Converter
+from engdyn.algebra.expressions import as_expression
 from engdyn.errors import EngdynError
 from engdyn.plots.alternative import describe
 from engdyn.plots.axes import MARKS, coordinate_axis, coordinate_range, index_of, is_stable, legend_entry
@@ -139,12 +140,14 @@ def effective_potential(
 
 def _at_rest(system: System, expression: Any) -> sm.Expr:
     """Put zero for the rates of the coordinates; inputs take their defaults or vanish."""
-    expression = sm.sympify(expression)
+    expression = as_expression(expression, "an energy")
     own = {c.symbol for c in system.coordinates}
     known = dict.fromkeys(expression.atoms(sm.Derivative) | (expression.atoms(AppliedUndef) - own), sm.S.Zero)
     for item in system.inputs:
         for order, default in enumerate(item.default or (0, 0, 0)):
-            known[item.symbol.diff(dynamicsymbols._t, order)] = sm.sympify(default)
+            known[item.symbol.diff(dynamicsymbols._t, order)] = as_expression(
+                default, "the default of an input"
+            )
     return expression.xreplace(known)
 
 
