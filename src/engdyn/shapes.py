@@ -19,7 +19,8 @@ from engdyn.errors import EngdynError
 __all__ = [
     "ROLES", "AngleArrow", "Box", "CenterLine", "CenterOfMass", "CoordinateArrow", "Curve", "Damper",
     "Dimension", "Disc", "ForceArrow", "GravityArrow", "Ground", "Label", "Link", "MomentArrow", "Particle",
-    "Pin", "Polygon", "Shape", "Spring", "Support", "TorsionalDamper", "TorsionalSpring", "Wheel",
+    "Pin", "Polygon", "Shape", "Spring", "Support", "TorsionalDamper", "TorsionalSpring", "Triad",
+    "VectorArrow", "Wheel",
 ]
 
 Point = tuple[float, ...]
@@ -27,7 +28,8 @@ Points = tuple[Point, ...]
 
 #: What a shape stands for; the style of a picture gives each role its color.
 ROLES = ("body", "link", "spring", "damper", "joint", "ground",
-         "reference", "parameter", "coordinate", "input")
+         "reference", "parameter", "coordinate", "input",
+         "position", "velocity", "acceleration", "momentum", "force", "reaction")
 # fmt: on
 
 
@@ -297,4 +299,26 @@ class MomentArrow(_Around):
 class GravityArrow(_Between):
     """The direction in which gravity acts; the head is at ``end``."""
 
+    role: str = "reference"
+
+
+@dataclass(frozen=True)
+class VectorArrow(_Between):
+    """A vector drawn from ``start`` to ``end``; ``double`` gives it the two heads of a rotation or a moment.
+
+    A vector without length is not drawn.
+    """
+
+    double: bool = False
+    role: str = "velocity"
+
+
+@dataclass(frozen=True)
+class Triad(Shape):
+    """Unit vectors of a frame; a third label of two axes belongs to the one that points at the reader."""
+
+    origin: Point
+    axes: Points = ((1.0, 0.0), (0.0, 1.0))
+    labels: tuple[str, ...] = ("$x$", "$y$")
+    length: float = 0.2
     role: str = "reference"

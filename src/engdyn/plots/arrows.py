@@ -7,7 +7,9 @@ import math
 import numpy as np
 
 from engdyn import shapes
+from engdyn.errors import EngdynError
 from engdyn.plots.pen import Pen, direction, left_of
+from engdyn.plots.projection import arc
 from engdyn.plots.symbols import arc_points, trace
 
 __all__: list[str] = []
@@ -98,3 +100,41 @@ def _(shape: shapes.MomentArrow, pen: Pen) -> None:
     angles = np.array([(shape.start + shape.end) / 2, shape.end, shape.start])
     center, *points = pen.view.project(np.vstack([shape.center, arc_points(shape, angles)]))
     pen.text_at([(point, direction(point - center)) for point in points], shape.label, shape.role, 5.0)
+
+
+@trace.register
+def _(shape: shapes.VectorArrow, pen: Pen) -> None:
+    start, end = pen.view.project([shape.start, shape.end])
+    way = end - start
+    if np.linalg.norm(way) < 2.0 * pen.unit:
+        return  # nothing to see, or the vector points at the reader
+    # A head is never longer than its vector.
+    length = min(12.0, 0.45 * float(np.linalg.norm(way)) / pen.unit)
+    pen.arrow([start, end], shape.role, 2.4, length)
+    if shape.double:
+        pen.head(end - 0.75 * length * pen.unit * direction(way), way, shape.role, length)
+    out, middle = direction(way), (start + end) / 2
+    places = [(end, out), (middle, left_of(out)), (middle, -left_of(out))]
+    pen.text_at(places, shape.label, shape.role, 4.0)
+
+
+@trace.register
+def _(shape: shapes.Triad, pen: Pen) -> None:
+    size = len(shape.origin)
+    axes = [direction(axis) for axis in shape.axes]
+    if any(len(axis) != size for axis in axes):
+        raise EngdynError(f"Triad: origin {shape.origin} and axes {shape.axes} differ in their dimensions.")
+    for axis, label in zip(axes, shape.labels, strict=False):
+        end = np.array(shape.origin) + shape.length * axis
+        start, tip = pen.view.project([shape.origin, end])
+        if np.linalg.norm(tip - start) < 2.0 * pen.unit:
+            continue
+        pen.arrow([start, tip], shape.role, 1.8, 9.0)
+        pen.text(tip, label, shape.role, direction(tip - start), 3.0)
+    if size == 2 and len(shape.labels) > len(axes):
+        around = arc(shape.origin, 5.0 * pen.unit, np.linspace(0.0, 2.0 * math.pi, 25))
+        pen.area(around, shape.role, 1.4, "paper")
+        pen.area(
+            arc(shape.origin, 1.6 * pen.unit, np.linspace(0.0, 2.0 * math.pi, 13)), shape.role, 0.6, "role"
+        )
+        pen.text(shape.origin, shape.labels[-1], shape.role, -sum(axes), 7.0)

@@ -26,7 +26,7 @@ from engdyn.shapes import Shape
 if TYPE_CHECKING:
     from engdyn.system import System
 
-__all__ = ["Layer", "draw", "draw_layers", "drawing_axes", "shown_pose", "structure"]
+__all__ = ["Layer", "draw", "draw_layers", "drawing_axes", "shown_pose", "sketch", "structure"]
 
 STRUCTURE = ("body", "link", "spring", "damper", "joint", "ground")
 """Roles that remain when a pose is drawn faintly: what is there, without what is written on it."""
@@ -104,6 +104,50 @@ def draw(
     draw_layers(ax, layers, view=view, labels=labels, keep=True)
     kind = "Faint drawing" if faint else "Drawing"
     describe(ax, f"{kind} of {system.title} at {pose_in_words(system.coordinates, q)}.", add=True)
+    return ax
+
+
+def sketch(
+    shapes: Iterable[Shape],
+    words: str,
+    ax: Axes | None = None,
+    *,
+    view: View | None = None,
+    labels: bool = True,
+    letters: float = SIZE,
+) -> Axes:
+    """Draw any list of shapes: a figure of a text, a diagram of vectors, one's own machine.
+
+    Parameters
+    ----------
+    shapes : iterable of Shape
+        From :mod:`engdyn.shapes`, in meters.
+    words : str
+        The picture in a sentence or two, for readers who cannot see it.
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; default: new axes of a new figure. A sketch drawn into axes that hold one joins it.
+    view : View, optional
+        From where shapes in space are seen.
+    labels : bool
+        Write the labels.
+    letters : float
+        Size of the letters in points.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    EngdynError
+        No words, or something that is no shape.
+    """
+    if not isinstance(words, str) or not words.strip():
+        raise EngdynError("sketch: say in words what the picture shows; some readers cannot see it.")
+    layers = [Layer(tuple(shapes))]
+    ax = drawing_axes(layers, view) if ax is None else ax
+    draw_layers(ax, layers, view=view, labels=labels, keep=True, size=letters)
+    describe(ax, words, add=True)
     return ax
 
 

@@ -31,6 +31,12 @@ COLORS = {
     "parameter": "#00694f",
     "coordinate": "#0072B2",
     "input": "#C24A00",
+    "position": "#20303c",
+    "velocity": "#007A55",
+    "acceleration": "#A83279",
+    "momentum": "#8A5A00",
+    "force": "#C24A00",
+    "reaction": "#0072B2",
 }
 """Color of each role of a shape; all have a contrast of at least 4.5 : 1 on white, also as text."""
 

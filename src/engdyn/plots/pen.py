@@ -27,6 +27,7 @@ LEVELS = {
     "parameter": 6.0,
     "coordinate": 7.0,
     "input": 8.0,
+    **dict.fromkeys(("position", "velocity", "acceleration", "momentum", "force", "reaction"), 8.0),
 }
 """What lies on top of what: a larger number is drawn later."""
 
