@@ -14,7 +14,7 @@ __version__ = "0.1.0"
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submodules=["course", "plots", "systems", "widgets"],
+    submodules=["course", "plots", "shapes", "solids", "systems", "widgets"],
     submod_attrs={
         "errors": [
             "EngdynError",
@@ -28,14 +28,42 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "system": ["System"],
         "modeling.equality": ["Proof", "prove_equal"],
         "modeling.equations": ["EquationsOfMotion"],
-        "modeling.inertia": ["PrincipalAxes", "inertia_tensor", "parallel_axis", "principal_axes"],
+        "modeling.inertia": [
+            "PrincipalAxes",
+            "inertia_tensor",
+            "parallel_axis",
+            "principal_axes",
+            "rotate_tensor",
+        ],
+        "modeling.instants": ["components", "motion_at", "rotation_matrix"],
+        "modeling.kinematic_chain": ["KinematicChain"],
+        "modeling.rotations": ["AngularMotion", "angular_motion"],
         "modeling.kinematics": [
             "AccelerationTerms",
             "VectorDerivative",
             "acceleration_terms",
             "vector_derivative",
         ],
+        "modeling.euler": ["EulerEquations", "euler_equations"],
+        "modeling.gyroscopes": [
+            "FreePrecession",
+            "SteadyPrecession",
+            "free_precession",
+            "steady_precession",
+        ],
+        "modeling.moments": ["MomentBalance", "angular_momentum", "moment_balance"],
+        "modeling.definiteness": ["Definiteness"],
+        "modeling.energies": [
+            "damper_dissipation",
+            "gravity_potential",
+            "kinetic_energy",
+            "spring_potential",
+        ],
         "modeling.lagrange": ["lagrange"],
+        "modeling.lagrange_steps": ["LagrangeSteps"],
+        "modeling.potential": ["check_potential", "potential_of"],
+        "modeling.standard_form": ["StandardForm", "standard_form"],
+        "modeling.virtual_work": ["generalized_forces"],
         "modeling.newton": ["FreeBody", "newton_euler"],
         "analysis.branches": ["Branch", "BranchPoint", "BranchSet", "continue_equilibria"],
         "analysis.equilibrium": ["Equilibrium", "EquilibriumSet", "equilibria"],

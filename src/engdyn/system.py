@@ -50,6 +50,8 @@ class System:
     inputs : sequence of Input
     shapes : callable, optional
         ``shapes(q, values)`` returns the drawing as a list of :mod:`engdyn.shapes`.
+    pose : sequence of float, optional
+        Coordinates [m, rad] of a pose that shows the system well; drawings begin with it.
     constraints : sequence of expressions, optional
         Nonholonomic velocity constraints = 0.
     steady : callable, optional
@@ -84,6 +86,7 @@ class System:
         unknowns: Sequence[sm.Symbol] = (),
         inputs: Sequence[Input] = (),
         shapes: Callable[..., list] | None = None,
+        pose: Sequence[float] | None = None,
         constraints: Sequence[sm.Expr] = (),
         steady: Callable[..., dict] | None = None,
         number: int | None = None,
@@ -99,6 +102,7 @@ class System:
         self.dissipation, self.generalized_forces = dissipation, dict(generalized_forces or {})
         self.frame, self.unknowns, self.constraints = frame, tuple(unknowns), tuple(constraints)
         self._free_bodies, self._shapes, self._steady = free_bodies, shapes, steady
+        self.pose = None if pose is None else tuple(float(x) for x in pose)
         names = [p.name for p in self.parameters]
         if len(set(names)) != len(names):
             raise EngdynError(f"parameter names must differ: {names}")

@@ -99,11 +99,11 @@ def test_terms_with_the_same_fault_and_the_same_rates_are_one_difference():
 @pytest.mark.parametrize(
     ("name", "text"),
     [
-        ("missing spring", "equation 1: the term k*x(t) is missing"),
-        ("extra damping", "equation 1: the term c*Derivative(x(t), t) should not be there"),
-        ("input on the wrong side", "equation 1: the term -F(t) has the wrong sign"),
+        ("missing spring", "equation 1 (x): the term k*x is missing"),
+        ("extra damping", "equation 1 (x): the term c*x' should not be there"),
+        ("input on the wrong side", "equation 1 (x): the term -F has the wrong sign"),
         ("half the inertia", "is multiplied by 1/2"),
-        ("gravity twice", "is multiplied by 2 (gravity counted twice?)"),
+        ("gravity twice", "is multiplied by 2 – twice as large as it should be: gravity counted twice"),
     ],
 )
 def test_differences_read_as_sentences(name, text):

@@ -10,6 +10,7 @@ import sympy as sm
 from sympy.physics.mechanics import Point, ReferenceFrame, dynamicsymbols
 
 from engdyn.errors import EngdynError
+from engdyn.modeling.instants import components, number_at
 from engdyn.modeling.kinematics import acceleration_terms, vector_derivative
 
 T0, H = 0.7, 1e-4
@@ -135,3 +136,54 @@ def test_unconnected_points_frames_and_missing_numbers(arm):
         vector_derivative(N.x, ReferenceFrame("Z"), N)
     with pytest.raises(EngdynError, match="values lacks"):
         acceleration_terms(P, base, B, N).evaluate({"theta": 1.0})
+
+
+def test_forgetting_a_term_leaves_the_others(arm):
+    N, _, B, base, P = arm
+    terms = acceleration_terms(P, base, B, N)
+    parts = terms.evaluate(numbers())
+    left = components(terms.without("coriolis", "base"), B, numbers())
+    expected = parts["total"] - parts["coriolis"] - parts["base"]
+    np.testing.assert_allclose(left, expected, atol=1e-12)
+    assert terms.without() == terms.total
+    with pytest.raises(EngdynError, match="no term 'Euler': choose among base, tangential"):
+        terms.without("Euler")
+
+
+def test_the_table_gives_magnitudes_and_unit_vectors(arm):
+    N, _, B, base, P = arm
+    terms = acceleration_terms(P, base, B, N)
+    table, parts = terms.table(numbers()), terms.evaluate(numbers())
+    assert list(table.index) == ["base", "tangential", "centripetal", "coriolis", "relative", "total"]
+    for name, row in table.iterrows():
+        np.testing.assert_allclose(row.iloc[0] * row.iloc[1:].to_numpy(), parts[name], atol=1e-12)
+        assert np.linalg.norm(row.iloc[1:]) == pytest.approx(1.0)
+
+
+def test_a_term_that_is_zero_has_no_direction(arm):
+    N, _, B, _, _ = arm
+    fixed = Point("O")
+    fixed.set_vel(N, 0)
+    tip = fixed.locatenew("T", 2 * B.x)
+    table = acceleration_terms(tip, fixed, B, N).table(numbers())
+    assert table.loc["coriolis"].iloc[0] == 0
+    assert table.loc["coriolis"].iloc[1:].isna().all()
+
+
+def test_rounding_has_no_direction(arm):
+    N, _, B, base, P = arm
+    v = {**numbers(), "r_dd": 1e-17}
+    table = acceleration_terms(P, base, B, N).table(v)
+    assert table.loc["relative"].iloc[0] == 0
+    assert table.loc["relative"].iloc[1:].isna().all()
+
+
+def test_symbolic_magnitudes_are_those_of_the_numbers(arm):
+    N, _, B, base, P = arm
+    terms = acceleration_terms(P, base, B, N)
+    sizes, found = terms.magnitudes(numbers()), terms.symbolic_magnitudes()
+    for name, size in found.items():
+        assert number_at(size, numbers()) == pytest.approx(sizes[name], rel=1e-12)
+    assert found["relative"] == sm.Abs(r.diff(t, 2))
+    # the carriage accelerates along a ground axis: all sines and cosines cancel
+    assert found["base"] == sm.sqrt(x.diff(t, 2) ** 2)

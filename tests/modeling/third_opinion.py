@@ -371,7 +371,7 @@ def _solved(model, eom, samples, matrices, rates, speeds) -> list[np.ndarray]:
     functions = []
     for matrix in matrices:
         for substitution in (*inputs[:2], known, inputs[2], at):
-            matrix = matrix.subs(substitution)
+            matrix = matrix.xreplace(substitution)
         functions.append(sm.lambdify(arguments, matrix, cse=True))
     found = []
     f_rates = eom.compiled("math")

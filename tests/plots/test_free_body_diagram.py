@@ -142,3 +142,14 @@ def test_what_cannot_be_drawn_is_refused(ladder):
         ed.plots.free_body(ed.FreeBody(Particle("P", Point("P"), m)))
     with pytest.raises(ed.EngdynError, match="say in words"):
         ed.plots.sketch([shapes.Pin((0.0, 0.0))], " ")
+
+
+def test_axes_that_turn_with_time_are_drawn_at_time_zero(drawn):
+    ground, turning = ReferenceFrame("N"), ReferenceFrame("A")
+    turning.orient_axis(ground, 3 * dynamicsymbols._t, ground.z)
+    point = Point("P")
+    cut = ed.FreeBody(Particle("P", point, m), [Force(point, N * turning.x)])
+    ed.plots.free_body(cut)
+    assert along(drawn["$N$"]) == pytest.approx((1, 0))
+    ed.plots.free_body(cut, {"t": np.pi / 6})
+    assert along(drawn["$N$"]) == pytest.approx((0, 1))

@@ -198,3 +198,13 @@ def test_dimension_is_set_off_to_the_left():
     assert pen.lines[-1].points == pytest.approx(np.array([(0, 0.5), (2, 0.5)]))
     tips = sorted(area.points[0].tolist() for area in pen.areas)
     assert tips == [pytest.approx([0, 0.5]), pytest.approx([2, 0.5])]
+
+
+def test_a_particle_in_front_of_a_plate_is_not_hidden():
+    view = View(0.0, 0.0)  # the eye stands on the X axis
+    pen = Pen(0.01, view)
+    trace(shapes.Polygon(((1.0, -1.0, -1.0), (1.0, 1.0, -1.0), (1.0, 0.0, 1.0))), pen)
+    for x in (0.5, 1.5):
+        trace(shapes.Particle((x, 0.0, 0.0)), pen)
+    plate, behind, before = pen.areas
+    assert behind.depth < plate.depth < before.depth

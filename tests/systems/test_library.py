@@ -38,7 +38,7 @@ def test_one_system_has_many_names(key):
         ("halfcar", "S23 'half_car'"),
         ("S99", "S23 'half_car'"),
         (99, "S23 'half_car'"),
-        (-5, "S03 'flyball_governor'"),
+        (-5, "S01 'slider_crank_press'"),
     ],
 )
 def test_an_unknown_name_is_answered_with_the_nearest(key, nearest):

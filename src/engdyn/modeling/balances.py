@@ -5,7 +5,7 @@ Course sections 2.4 and 2.13.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import sympy as sm
@@ -66,18 +66,18 @@ class Balances:
                     rest = rest - entry * generator
             self.rows.append([*row, rest])
         reactions = {ring.index["symbol", x] for x in unknowns}
-        if any(entry.generators() & reactions for row in self.rows for entry in row):
+        if any(not e.is_zero() and e.generators() & reactions for row in self.rows for e in row):
             raise EngdynError(
                 "the loads are not linear in the unknown reactions: give each reaction one magnitude"
             )
 
-    def check(self, others: Sequence[sm.Symbol] = ()) -> None:
+    def check(self, others: Callable[[], Iterable[sm.Symbol]] = tuple) -> None:
         """As many balances as unknown accelerations and reactions, or an error that says what is wrong.
 
         Parameters
         ----------
-        others : sequence of sympy.Symbol
-            Symbols of the reaction loads that are not among the unknowns, for the message.
+        others : callable
+            Returns the symbols of the reaction loads that are not among the unknowns, for the message.
         """
         n, k = len(self.state.speeds), len(self.unknowns)
         if len(self.rows) == n + k:
@@ -89,7 +89,7 @@ class Balances:
         counted = f"{len(self.rows)} equations for {n} accelerations and {k} reactions"
         if len(self.rows) > n + k:
             missing = len(self.rows) - n - k
-            names = ", ".join(sorted(x.name for x in others))
+            names = ", ".join(sorted(x.name for x in others()))
             hint = f"The reactions contain {names}, not listed among the unknowns. " if names else ""
             raise EngdynError(
                 f"{counted}: {missing} reaction{'s are' if missing > 1 else ' is'} missing. "

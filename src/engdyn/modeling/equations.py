@@ -16,7 +16,7 @@ from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.codegen import compile_elements
 from engdyn.algebra.expressions import as_expression
-from engdyn.algebra.readable import to_sympy, tree
+from engdyn.algebra.readable import expression
 from engdyn.algebra.ring import Element, Ring
 from engdyn.errors import EngdynError
 from engdyn.modeling.state import State, check_coordinates
@@ -104,7 +104,8 @@ class EquationsOfMotion:
         solve_reactions: Callable[[], dict[sm.Symbol, sm.Expr]] | None = None,
     ) -> EquationsOfMotion:
         """Equations from ring elements, after a check that they are linear and every speed has inertia."""
-        _check_linear(state, [*(e for row in mass for e in row), *force, *state.rate_elements()])
+        mass, rates = _mirrored(mass), state.rate_elements()
+        _check_linear(state, [*(e for row in mass for e in row), *force, *rates])
         for j, u in enumerate(state.speeds):
             if all(row[j].is_zero() for row in mass):
                 raise EngdynError(
@@ -117,7 +118,7 @@ class EquationsOfMotion:
             state.ring,
             tuple(tuple(row) for row in mass),
             tuple(force),
-            tuple(state.rate_elements()),
+            tuple(rates),
             origin,
             solve_reactions,
         )
@@ -127,17 +128,17 @@ class EquationsOfMotion:
     @cached_property
     def mass_matrix(self) -> sm.Matrix:
         """M(q, t), shape (m, m), factored."""
-        return sm.Matrix([[to_sympy(tree(entry)) for entry in row] for row in self.mass])
+        return sm.Matrix([[expression(entry) for entry in row] for row in self.mass])
 
     @cached_property
     def forcing(self) -> sm.Matrix:
         """f(q, u, t), shape (m, 1), factored."""
-        return sm.Matrix([to_sympy(tree(entry)) for entry in self.force])
+        return sm.Matrix([expression(entry) for entry in self.force])
 
     @cached_property
     def kinematics(self) -> sm.Matrix:
         """q̇ = G u + g as expressions, shape (n, 1)."""
-        return sm.Matrix([to_sympy(tree(entry)) for entry in self.rates])
+        return sm.Matrix([expression(entry) for entry in self.rates])
 
     @cached_property
     def reactions(self) -> dict[sm.Symbol, sm.Expr]:
@@ -247,6 +248,14 @@ class EquationsOfMotion:
 
         udot = sm.Matrix([u.diff(dynamicsymbols._t) for u in self.speeds])
         return f"$\\displaystyle {vlatex(self.mass_matrix)} {vlatex(udot)} = {vlatex(self.forcing)}$"
+
+
+def _mirrored(mass: Sequence[Sequence[Element]]) -> list[list[Element]]:
+    """The mass matrix with one element for equal entries on both sides of its diagonal."""
+    found: list[list[Element]] = []
+    for i, row in enumerate(mass):
+        found.append([found[j][i] if j < i and e.equals(mass[j][i]) else e for j, e in enumerate(row)])
+    return found
 
 
 def _residual(equation: Any) -> sm.Expr:

@@ -7,7 +7,7 @@ expressions; numbers give a numpy array, expressions a sympy matrix.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,20 +15,16 @@ import numpy as np
 import sympy as sm
 
 from engdyn.errors import EngdynError
+from engdyn.modeling.tensors import as_rows, as_tensor, check_positive, checked_entry, is_symbolic
 
-__all__ = ["PrincipalAxes", "check_tensor", "inertia_tensor", "parallel_axis", "principal_axes", "rotated"]
-
-
-def is_symbolic(*values: Any) -> bool:
-    """Whether any of the values is a sympy expression that is not a number."""
-    return any(isinstance(v, sm.Basic) and not v.is_number for v in values)
-
-
-def as_tensor(rows: Sequence[Sequence[Any]]) -> Any:
-    """Nine entries as a numpy array, or as a sympy matrix where one of them is symbolic."""
-    if is_symbolic(*(x for row in rows for x in row)):
-        return sm.Matrix(rows)
-    return np.array([[float(x) for x in row] for row in rows])
+__all__ = [
+    "PrincipalAxes",
+    "check_tensor",
+    "inertia_tensor",
+    "parallel_axis",
+    "principal_axes",
+    "rotate_tensor",
+]
 
 
 def inertia_tensor(masses: Sequence[Any], points: Sequence[Sequence[Any]]) -> Any:
@@ -63,66 +59,152 @@ def inertia_tensor(masses: Sequence[Any], points: Sequence[Sequence[Any]]) -> An
            [-6.,  2.,  0.],
            [ 0.,  0., 20.]])
     """
-    masses, points = list(masses), [tuple(p) for p in points]
+    if not _are_numbers(masses, points):
+        masses, points = _checked(masses, points)
+        if is_symbolic(*masses, *(x for r in points for x in r)):
+            rows: Any = sm.zeros(3)
+            for mass, point in zip(masses, points, strict=True):
+                column = sm.Matrix(point)
+                rows += mass * (column.dot(column) * sm.eye(3) - column * column.T)
+            return rows
+    m, x = np.array(masses, dtype=float), np.array(points, dtype=float)
+    return np.sum(m * np.sum(x * x, axis=1)) * np.eye(3) - (m * x.T) @ x
+
+
+def _are_numbers(masses: Any, points: Any) -> bool:
+    """Whether nothing needs a closer look: a cloud of a million points is checked at once."""
+    try:
+        m, x = np.asarray(masses), np.asarray(points)
+    except ValueError:
+        return False
+    plain = m.dtype.kind in "iuf" and x.dtype.kind in "iuf" and m.ndim == 1 and x.shape == (len(m), 3)
+    return bool(plain and len(m) and np.all(np.isfinite(m)) and np.all(m >= 0) and np.all(np.isfinite(x)))
+
+
+def _checked(masses: Any, points: Any) -> tuple[list[Any], list[tuple[Any, ...]]]:
+    """Masses and points as lists, or what is wrong with them."""
+    try:
+        masses, points = list(masses), [tuple(p) for p in points]
+    except TypeError as error:
+        raise EngdynError("give a list of masses and a list of points (x, y, z)") from error
     if len(masses) != len(points) or not masses:
         raise EngdynError(
             f"{len(masses)} masses and {len(points)} points: give one point for every mass, at least one"
         )
-    rows: list[list[Any]] = [[0, 0, 0] for _ in range(3)]
     for mass, r in zip(masses, points, strict=True):
         if len(r) != 3:
             raise EngdynError(f"the point {r} has {len(r)} coordinates: give (x, y, z)")
         check_positive(zero=True, mass=mass)
-        square = sum(x * x for x in r)
-        for i in range(3):
-            for j in range(3):
-                rows[i][j] = rows[i][j] + mass * ((square if i == j else 0) - r[i] * r[j])
-    return as_tensor(rows)
+        for x in r:
+            checked_entry(x, f"a coordinate of the point {r}")
+    return masses, points
 
 
-def parallel_axis(tensor: Any, mass: Any, offset: Sequence[Any]) -> Any:
-    """Inertia tensor about a point at `offset`, from that about the mass center.
+def parallel_axis(
+    tensor: Any, mass: Any, offset: Sequence[Any], *, start: Sequence[Any] = (0.0, 0.0, 0.0)
+) -> Any:
+    """Inertia tensor about the point at `offset` from the mass center G, in parallel axes.
 
     Parameters
     ----------
     tensor : array_like, shape (3, 3)
-        About the mass center G [kg m²].
+        About G [kg m²], or about the point at `start`.
     mass : float or sympy.Expr
         [kg]
     offset : (x, y, z)
-        From G to the new point [m]; its sign does not matter.
+        From G to the new point [m]; its sign does not matter. Zeros lead back to G.
+    start : (x, y, z), optional
+        From G to the point that `tensor` refers to [m]; default G itself.
 
     Returns
     -------
     ndarray or sympy.Matrix, shape (3, 3)
 
+    Raises
+    ------
+    EngdynError
+        Offsets that are not triples of finite numbers, a negative mass, a tensor that is not symmetric; a
+        tensor that, brought back to G, no body can have: it does not refer to the point at `start`.
+
     Notes
     -----
     Sections B.2 and B.3: I_P = I_G + m (d² 1 − d dᵀ) (J. Steiner; C. Huygens, *Horologium
-    oscillatorium*, 1673).  It leads from G outward only: from one point to another go through G, back
-    with a *minus* sign.
+    oscillatorium*, 1673). The theorem leads from G outward, and back with a minus sign. The way from
+    one point to another is always through G: both offsets count from there, never from each other.
+
+    Examples
+    --------
+    >>> import engdyn as ed
+    >>> about_end = ed.parallel_axis(ed.solids.rod(3.0, 2.0), 3.0, (0, 0, 1))
+    >>> about_end.diagonal().tolist()
+    [4.0, 4.0, 0.0]
+    >>> ed.parallel_axis(about_end, 3.0, (0, 0, 0), start=(0, 0, 1)).diagonal().tolist()
+    [1.0, 1.0, 0.0]
     """
-    rows = _rows(tensor)
-    added = _rows(inertia_tensor([mass], [tuple(offset)]))
-    return as_tensor([[a + b for a, b in zip(x, y, strict=True)] for x, y in zip(rows, added, strict=True)])
+    if not all(isinstance(place, Iterable) for place in (offset, start)):
+        raise EngdynError(f"offset is {offset!r}, start is {start!r}: give (x, y, z) in meters")
+    rows = as_rows(as_tensor(as_rows(tensor)))
+    if not is_symbolic(*(x for row in rows for x in row)):
+        _check_symmetric(np.array(rows))
+    if any(x != 0 for x in start):
+        rows = _shifted(rows, mass, start, -1)
+        if not is_symbolic(*(x for row in rows for x in row)):
+            _check_about_center(np.array(rows), start)
+    return as_tensor(_shifted(rows, mass, offset, 1))
 
 
-def rotated(tensor: Any, rotation: Any) -> Any:
-    """Elements of the same tensor in other axes: R I Rᵀ.
+def _shifted(rows: list[list[Any]], mass: Any, offset: Sequence[Any], sign: int) -> list[list[Any]]:
+    """The tensor plus (away from G) or minus (toward G) that of the whole mass at `offset`."""
+    added = as_rows(inertia_tensor([mass], [tuple(offset)]))
+    return [[a + sign * b for a, b in zip(x, y, strict=True)] for x, y in zip(rows, added, strict=True)]
+
+
+def _check_about_center(array: np.ndarray, start: Sequence[Any]) -> None:
+    try:
+        check_tensor(array)
+    except EngdynError as error:
+        raise EngdynError(
+            f"brought back to the mass center, the tensor is impossible, so it does not refer to the point at "
+            f"{tuple(start)} from G: {error}"
+        ) from error
+
+
+def rotate_tensor(tensor: Any, rotation: Any) -> Any:
+    """Elements of the same tensor, about the same point, in other axes: R I Rᵀ.
 
     Parameters
     ----------
     tensor : array_like, shape (3, 3)
+        [kg m²]
     rotation : array_like, shape (3, 3)
-        Turns components in the old axes into components in the new ones.
+        Turns components in the old axes into components in the new ones: its rows are the unit vectors of
+        the new axes; with sympy ``new.dcm(old)``.
+
+    Returns
+    -------
+    ndarray or sympy.Matrix, shape (3, 3)
+
+    Raises
+    ------
+    EngdynError
+        Rows (given as numbers) that are not unit vectors square to each other, or form a left-handed set.
+
+    Notes
+    -----
+    Section B.3.
     """
-    if is_symbolic(*(x for row in (*_rows(tensor), *_rows(rotation)) for x in row)):
-        R = sm.Matrix(_rows(rotation))
-        return R * sm.Matrix(_rows(tensor)) * R.T
-    R = np.array(_rows(rotation), dtype=float)
-    if not np.allclose(R @ R.T, np.eye(3), atol=1e-9):
-        raise EngdynError("rotation is not orthogonal: its rows must be unit vectors, square to each other")
-    return R @ np.array(_rows(tensor), dtype=float) @ R.T
+    tensor, R = as_tensor(as_rows(tensor)), as_tensor(as_rows(rotation))
+    if isinstance(R, np.ndarray):
+        if not np.allclose(R @ R.T, np.eye(3), atol=1e-9):
+            raise EngdynError(
+                "rotation is not orthogonal: its rows must be unit vectors, square to each other"
+            )
+        if np.linalg.det(R) < 0:
+            raise EngdynError("rotation is a mirror image, not a rotation: its axes are left-handed")
+    if isinstance(tensor, np.ndarray) and isinstance(R, np.ndarray):
+        return R @ tensor @ R.T
+    R = sm.Matrix(R)
+    return R * sm.Matrix(tensor) * R.T
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,11 +216,18 @@ class PrincipalAxes:
     moments : ndarray, shape (3,)
         In rising order [kg m²].
     axes : ndarray, shape (3, 3)
-        Unit vectors as columns, right-handed.
+        Unit vectors as columns, right-handed. Its transpose is the rotation that leads to these axes.
     """
 
     moments: np.ndarray
     axes: np.ndarray
+
+    def __repr__(self) -> str:
+        lines = [
+            f"  {moment:.4g} kg m² about ({', '.join(f'{x + 0.0:.4g}' for x in np.round(axis, 12))})"
+            for moment, axis in zip(self.moments, self.axes.T, strict=True)
+        ]
+        return "\n".join(["PrincipalAxes:", *lines])
 
 
 def principal_axes(tensor: Any) -> PrincipalAxes:
@@ -156,13 +245,16 @@ def principal_axes(tensor: Any) -> PrincipalAxes:
 
     Notes
     -----
-    Section B.3.  Each axis is turned so that its largest component is positive, the third one so
-    that the set is right-handed.
+    Section B.3. Each axis is turned so that its largest component (of equal ones the first) is positive, the
+    third one so that the set is right-handed. Where two moments are equal, every axis in the plane of the
+    two is principal, and the pair returned is one of many.
     """
     checked = check_tensor(tensor)
     moments, axes = np.linalg.eigh(checked)
     for k in range(3):
-        axes[:, k] *= np.sign(axes[np.argmax(np.abs(axes[:, k])), k])
+        sizes = np.abs(axes[:, k])
+        # Equal components must not be told apart by rounding.
+        axes[:, k] *= np.sign(axes[np.argmax(sizes > 0.999999 * sizes.max()), k])
     if np.linalg.det(axes) < 0:
         axes[:, 2] *= -1
     return PrincipalAxes(moments, axes)
@@ -177,17 +269,12 @@ def check_tensor(tensor: Any) -> np.ndarray:
         Not 3 × 3 and symmetric, negative moments, or J1 + J2 < J3: the largest principal moment
         cannot exceed the sum of the others.
     """
-    try:
-        array = np.array(_rows(tensor), dtype=float)
-    except (TypeError, ValueError) as error:
-        raise EngdynError("the inertia tensor must be a 3 × 3 array of numbers") from error
-    if not np.all(np.isfinite(array)):
-        raise EngdynError("the inertia tensor contains values that are not finite")
+    rows = as_rows(tensor)
+    if is_symbolic(*(x for row in rows for x in row)):
+        raise EngdynError("the inertia tensor must be a 3 × 3 array of numbers: substitute values first")
+    array = as_tensor(rows)
     scale = np.max(np.abs(array)) or 1.0
-    if np.max(np.abs(array - array.T)) > 1e-9 * scale:
-        raise EngdynError(
-            "the inertia tensor is not symmetric: its element (i, j) is −∫ x_i x_j dm, the same as (j, i)"
-        )
+    _check_symmetric(array)
     small, middle, large = np.linalg.eigvalsh(array)
     if small < -1e-9 * scale:
         raise EngdynError(
@@ -201,23 +288,8 @@ def check_tensor(tensor: Any) -> np.ndarray:
     return array
 
 
-def _rows(tensor: Any) -> list[list[Any]]:
-    rows = tensor.tolist() if hasattr(tensor, "tolist") else [list(row) for row in tensor]
-    if len(rows) != 3 or any(not isinstance(row, list) or len(row) != 3 for row in rows):
-        raise EngdynError("an inertia tensor or a rotation has three rows of three entries")
-    return rows
-
-
-def check_positive(zero: bool = False, **quantities: Any) -> None:
-    """Refuse numbers that are not finite or have the wrong sign; symbols pass."""
-    for name, value in quantities.items():
-        if is_symbolic(value):
-            continue
-        try:
-            number = float(value)
-        except (TypeError, ValueError) as error:
-            raise EngdynError(f"{name} is {value!r}: give a number or an expression") from error
-        if not np.isfinite(number) or number < 0 or (number == 0 and not zero):
-            raise EngdynError(
-                f"{name} is {number:g}: it must be finite and {'not negative' if zero else 'greater than zero'}"
-            )
+def _check_symmetric(array: np.ndarray) -> None:
+    if np.max(np.abs(array - array.T)) > 1e-9 * np.max(np.abs(array)):
+        raise EngdynError(
+            "the inertia tensor is not symmetric: its element (i, j) is −∫ x_i x_j dm, the same as (j, i)"
+        )

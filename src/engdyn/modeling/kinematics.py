@@ -8,19 +8,31 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import sympy as sm
-from sympy.core.function import AppliedUndef
-from sympy.physics.vector import Point, ReferenceFrame, Vector, dynamicsymbols
+from sympy.physics.vector import Point, ReferenceFrame, Vector
 
 from engdyn.algebra.readable import to_sympy, tree
 from engdyn.errors import EngdynError
+from engdyn.modeling.instants import components, key_name
 from engdyn.modeling.motion import Motion, Triple, cross, measure_numbers, rotation_steps, spin_steps
 from engdyn.modeling.state import State
 
-__all__ = ["AccelerationTerms", "VectorDerivative", "acceleration_terms", "vector_derivative"]
+if TYPE_CHECKING:
+    import pandas as pd
+
+__all__ = [
+    "AccelerationTerms",
+    "VectorDerivative",
+    "acceleration_terms",
+    "carried",
+    "key_name",
+    "motion_of",
+    "vector_derivative",
+    "written_in",
+]
 
 
 @dataclass(frozen=True)
@@ -78,12 +90,12 @@ def vector_derivative(vector: Vector, frame: ReferenceFrame, ground: ReferenceFr
     r(t)*Derivative(theta(t), t)*A.y
     """
     _check_vector(vector, "vector")
-    motion = _motion([vector], [frame], ground)
-    components = motion.components(vector, frame)
+    motion = motion_of([vector], [frame], ground)
+    written = motion.components(vector, frame)
     spin = motion.angular_velocity(frame, frame)
-    grows, turns = motion.derivative(components), cross(spin, components)
+    grows, turns = motion.derivative(written), cross(spin, written)
     total = [a + b for a, b in zip(grows, turns, strict=True)]
-    return VectorDerivative(*(_vector(part, frame) for part in (grows, turns, total)))
+    return VectorDerivative(*(written_in(part, frame) for part in (grows, turns, total)))
 
 
 @dataclass(frozen=True)
@@ -118,6 +130,20 @@ class AccelerationTerms:
         """The absolute acceleration: the sum of the five terms."""
         return sum((term for _, term in self), Vector(0))
 
+    def without(self, *names: str) -> Vector:
+        """The sum of the terms that remain when those named are forgotten: what a mistake looks like.
+
+        Raises
+        ------
+        EngdynError
+            There is no term of that name.
+        """
+        terms = dict(self)
+        for name in names:
+            if name not in terms:
+                raise EngdynError(f"there is no term {name!r}: choose among {', '.join(terms)}")
+        return sum((term for name, term in terms.items() if name not in names), Vector(0))
+
     def __iter__(self) -> Iterator[tuple[str, Vector]]:
         return iter((f.name, getattr(self, f.name)) for f in fields(self) if f.name != "frame")
 
@@ -136,11 +162,50 @@ class AccelerationTerms:
             Components in :attr:`frame` [m/s²].
         """
         named = [*self, ("total", self.total)]
-        return {name: _numbers(term, self.frame, values) for name, term in named}
+        return {name: components(term, self.frame, values) for name, term in named}
 
     def magnitudes(self, values: Mapping[Any, float]) -> dict[str, float]:
         """Magnitude of every term, and of the total [m/s²]."""
         return {name: float(np.linalg.norm(part)) for name, part in self.evaluate(values).items()}
+
+    def symbolic_magnitudes(self) -> dict[str, sm.Expr]:
+        """Magnitude of every term as an expression: the absolute value where it has one component."""
+        found = {}
+        for name, term in self:
+            motion = motion_of([term], [self.frame], self.frame)
+            parts = [c for c in motion.components(term, self.frame) if not c.is_zero()]
+            if len(parts) > 1:
+                found[name] = sm.sqrt(to_sympy(tree(sum((c * c for c in parts), motion.state.ring.zero))))
+            else:
+                found[name] = sm.Abs(to_sympy(tree(parts[0]))) if parts else sm.S.Zero
+        return found
+
+    def table(self, values: Mapping[Any, float]) -> pd.DataFrame:
+        """Every term, and the total, with magnitude and direction.
+
+        Parameters
+        ----------
+        values : mapping
+            As for :meth:`evaluate`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            One row a term: magnitude [m/s²] and the components of its unit vector along the axes of
+            :attr:`frame` (NaN for a term that is zero, which has no direction).
+        """
+        import pandas as pd
+
+        parts, sizes = self.evaluate(values), self.magnitudes(values)
+        least = 1e-12 * max(sizes.values())  # what is smaller is rounding
+        sizes = {name: size if size > least else 0.0 for name, size in sizes.items()}
+        rows = {
+            name: part / sizes[name] if sizes[name] else np.full(3, np.nan) for name, part in parts.items()
+        }
+        axes = [f"along {self.frame}.{axis}" for axis in "xyz"]
+        found = pd.DataFrame(rows, index=axes).T
+        found.insert(0, "magnitude [m/s²]", pd.Series(sizes))
+        return found.rename_axis("term")
 
     def _repr_latex_(self) -> str:
         from sympy.physics.vector.printing import vlatex
@@ -189,7 +254,7 @@ def acceleration_terms(
         ) from error
     path = path_of_point(base, ground)
     given = path.start._vel_dict[ground]
-    motion = _motion([arm, given, *path.steps], [frame], ground)
+    motion = motion_of([arm, given, *path.steps], [frame], ground)
     r = motion.components(arm, frame)
     spin = motion.angular_velocity(frame, frame)
     angular_acceleration = motion.derivative(spin)  # the frame's own ω: its turning adds ω × ω = 0
@@ -203,7 +268,7 @@ def acceleration_terms(
         twice,
         motion.derivative(seen),
     )
-    return AccelerationTerms(*(_vector(term, frame) for term in terms), frame)
+    return AccelerationTerms(*(written_in(term, frame) for term in terms), frame)
 
 
 def _check_vector(vector: Any, name: str) -> None:
@@ -211,7 +276,7 @@ def _check_vector(vector: Any, name: str) -> None:
         raise EngdynError(f"{name} is {vector!r}: give a Vector of sympy.physics.mechanics")
 
 
-def _motion(vectors: list[Vector], frames: list[ReferenceFrame], ground: ReferenceFrame) -> Motion:
+def motion_of(vectors: list[Vector], frames: list[ReferenceFrame], ground: ReferenceFrame) -> Motion:
     """A ring for given vectors and frames, with generators for all derivatives that will be needed."""
     involved = {f for v in vectors for _, f in v.args} | set(frames)
     spins = [s for f in involved for s in spin_steps(f, ground)]
@@ -223,41 +288,15 @@ def _motion(vectors: list[Vector], frames: list[ReferenceFrame], ground: Referen
     return Motion(State((), scalars, moving=scalars), ground)
 
 
-def _vector(components: Triple, frame: ReferenceFrame) -> Vector:
-    """A sympy vector from ring components, factored."""
-    parts = [to_sympy(tree(c)) for c in components]
+def carried(motion: Motion, written: Triple, frame: ReferenceFrame) -> Triple:
+    """Derivative of a vector, seen from the ground of `motion`, in the frame in which it is written."""
+    turning = cross(motion.angular_velocity(frame, frame), written)
+    return [a + b for a, b in zip(motion.derivative(written), turning, strict=True)]
+
+
+def written_in(written: Triple, frame: ReferenceFrame) -> Vector:
+    """A sympy vector from ring components in a frame, factored."""
+    parts = [to_sympy(tree(c)) for c in written]
     return sum(
         (p * axis for p, axis in zip(parts, (frame.x, frame.y, frame.z), strict=True) if p != 0), Vector(0)
     )
-
-
-def _numbers(vector: Vector, frame: ReferenceFrame, values: Mapping[Any, float]) -> np.ndarray:
-    """Components of a vector with numbers for everything in it."""
-    components = [vector.dot(axis) for axis in (frame.x, frame.y, frame.z)]
-    named = {key_name(k): v for k, v in values.items()}
-    found = []
-    for component in components:
-        replaced = component
-        for atom in sorted(component.atoms(sm.Derivative), key=lambda d: -d.derivative_count):
-            replaced = replaced.xreplace({atom: _value_of(atom, named)})
-        rest = {
-            a: _value_of(a, named) for a in replaced.atoms(sm.Symbol, AppliedUndef) if a != dynamicsymbols._t
-        }
-        found.append(float(replaced.xreplace(rest)))
-    return np.array(found)
-
-
-def key_name(key: Any) -> str:
-    """``theta_dd`` for the second derivative of theta, names as they are."""
-    if isinstance(key, str):
-        return key
-    if isinstance(key, sm.Derivative):
-        return f"{key.expr.func.__name__}_{'d' * int(key.derivative_count)}"
-    return key.func.__name__ if isinstance(key, AppliedUndef) else str(key)
-
-
-def _value_of(atom: sm.Expr, named: Mapping[str, float]) -> sm.Float:
-    name = key_name(atom)
-    if name not in named:
-        raise EngdynError(f"values lacks {name}: give it a number")
-    return sm.Float(float(named[name]))

@@ -7,7 +7,7 @@ J. W. Strutt, *Proc. London Math. Soc.* s1-4 (1873).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import sympy as sm
 from sympy.physics.vector import dynamicsymbols
@@ -17,11 +17,16 @@ from engdyn.algebra.readable import to_sympy, tree
 from engdyn.algebra.ring import Derivation, Element
 from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
+from engdyn.modeling.nonholonomic import projected, substitute, with_rates_inside
 from engdyn.modeling.state import State, check_coordinates, dependent_rates
 
-__all__ = ["lagrange"]
+if TYPE_CHECKING:
+    from engdyn.modeling.lagrange_steps import LagrangeSteps
+
+__all__ = ["lagrange", "substitute"]
 
 
+@overload
 def lagrange(
     kinetic: sm.Expr,
     potential: sm.Expr,
@@ -31,7 +36,31 @@ def lagrange(
     constraints: Sequence[sm.Expr] = (),
     *,
     speeds: Sequence[sm.Expr] | None = None,
-) -> EquationsOfMotion:
+    steps: Literal[False] = False,
+) -> EquationsOfMotion: ...
+@overload
+def lagrange(
+    kinetic: sm.Expr,
+    potential: sm.Expr,
+    coordinates: Sequence[sm.Expr],
+    dissipation: sm.Expr = 0,
+    forces: Mapping[sm.Expr, sm.Expr] | None = None,
+    constraints: Sequence[sm.Expr] = (),
+    *,
+    speeds: Sequence[sm.Expr] | None = None,
+    steps: Literal[True],
+) -> LagrangeSteps: ...
+def lagrange(
+    kinetic: sm.Expr,
+    potential: sm.Expr,
+    coordinates: Sequence[sm.Expr],
+    dissipation: sm.Expr = 0,
+    forces: Mapping[sm.Expr, sm.Expr] | None = None,
+    constraints: Sequence[sm.Expr] = (),
+    *,
+    speeds: Sequence[sm.Expr] | None = None,
+    steps: bool = False,
+) -> EquationsOfMotion | LagrangeSteps:
     """Equations of motion from energies.
 
     Parameters
@@ -51,10 +80,15 @@ def lagrange(
     speeds : sequence of rates, optional
         Which rates to keep as independent speeds under constraints; the first that can be where
         not given.
+    steps : bool
+        Return the terms of the derivation, too, and look at the kinetic energy: a warning says when it
+        is not positive for every motion.
 
     Returns
     -------
-    EquationsOfMotion
+    EquationsOfMotion or LagrangeSteps
+        With `steps` the derivation, which holds the equations.  Under constraints
+        ``eom.reactions`` gives the multipliers lambda_1, …: the constraint forces are Σ λ ∂c/∂q̇.
 
     Raises
     ------
@@ -95,10 +129,16 @@ def lagrange(
     terms = [kinetic, potential, dissipation, *forces.values()]
     state = State(coordinates, terms, independent, rates, substitute=False, moving=[kinetic])
     mass, force = _equations(state, kinetic, potential, dissipation, forces)
+    multipliers = None
     if constraints:
-        state, mass, force = _with_rates_inside(state, mass, force)
-        mass, force = _projected(state, mass, force)
-    return EquationsOfMotion.from_elements(state, mass, force, "Lagrange")
+        state, mass, force = with_rates_inside(state, mass, force)
+        mass, force, multipliers = projected(state, mass, force, constraints)
+    eom = EquationsOfMotion.from_elements(state, mass, force, "Lagrange", multipliers)
+    if not steps:
+        return eom
+    from engdyn.modeling.lagrange_steps import lagrange_steps
+
+    return lagrange_steps(eom, kinetic, potential, dissipation, forces, constraints)
 
 
 def _energy(expr: Any, name: str) -> sm.Expr:
@@ -192,81 +232,3 @@ def _check_counted_once(q: sm.Expr, Q: Element, attraction: Element) -> None:
             f"the generalized force of {q} contains {term}, which the potential energy gives already: "
             f"{'gravity' if weight else 'this force'} is counted twice; keep it in V or in forces, not in both"
         )
-
-
-def _with_rates_inside(
-    state: State, mass: list[list[Element]], force: list[Element]
-) -> tuple[State, list[list[Element]], list[Element]]:
-    """The same equations where dependent rates inside roots, magnitudes and calls are replaced, too."""
-    rates = {("function", q, 1) for q in state.rates}
-    ring, entries = state.ring, [*(e for row in mass for e in row), *force]
-    inner = [a for i in _used(entries) if i in ring.definitions for a in ring.definitions[i].arguments]
-    opaque = {j for i in _used(entries) if i in ring.definitions for j in ring.definitions[i].contains}
-    if not rates & {ring.keys[i] for i in {*ring.independent(inner), *opaque}}:
-        return state, mass, force
-    lines = [[to_sympy(tree(e)) for e in row] for row in mass]
-    column = [to_sympy(tree(e)) for e in force]
-    state = State(
-        state.coordinates, [*(e for line in lines for e in line), *column], state.speeds, state.rates
-    )
-    return state, [[state.convert(e) for e in line] for line in lines], [state.convert(e) for e in column]
-
-
-def _used(elements: Sequence[Element]) -> set[int]:
-    return {i for e in elements for i in e.generators()}
-
-
-def _projected(
-    state: State, mass: list[list[Element]], force: list[Element]
-) -> tuple[list[list[Element]], list[Element]]:
-    """Project the n equations on the m independent speeds: Gᵀ M G u̇ = Gᵀ (f − M (q̈ without u̇))."""
-    ring = state.ring
-    rates = state.rate_elements()
-    keys = {q: ("function", q, 1) for q in state.rates}
-    dependent = {ring.index[k]: state.convert(state.rates[q]) for q, k in keys.items() if k in ring.index}
-    speeds, accelerations = state.speed_partials(), state.acceleration_partials()
-    G = [[partial(rate) for partial in speeds] for rate in rates]
-    curvature = []
-    for rate in rates:
-        bare = state.time_derivative(rate)
-        for partial, key in zip(accelerations, state.acceleration_keys, strict=True):
-            bare = bare - partial(bare) * ring.generator(key)
-        curvature.append(substitute(bare, dependent))
-    n, m = len(rates), len(speeds)
-    mass = [[substitute(entry, dependent) for entry in row] for row in mass]
-    force = [substitute(entry, dependent) for entry in force]
-    rest = [force[i] - total(mass[i][j] * curvature[j] for j in range(n)) for i in range(n)]
-    half = [[total(mass[i][k] * G[k][j] for k in range(n)) for j in range(m)] for i in range(n)]
-    return (
-        [[total(G[k][i] * half[k][j] for k in range(n)) for j in range(m)] for i in range(m)],
-        [total(G[k][i] * rest[k] for k in range(n)) for i in range(m)],
-    )
-
-
-def total(elements: Any) -> Element:
-    """Sum of one or more elements."""
-    first, *rest = elements
-    for element in rest:
-        first = first + element
-    return first
-
-
-def substitute(element: Element, images: Mapping[int, Element]) -> Element:
-    """Replace independent generators by elements of the same ring (angles do not contain them)."""
-    if not element.generators() & set(images):
-        return element
-    ring, ps = element.ring, element.ring.polynomials
-
-    def polynomial(p: Any) -> Element:
-        result = ring.zero
-        for exponents, coefficient in ps.terms(p):
-            kept = tuple(0 if i in images else e for i, e in enumerate(exponents))
-            term = Element(ring, ps.from_terms({kept: coefficient}))
-            for i, image in images.items():
-                if exponents[i]:
-                    term = term * image ** exponents[i]
-            result = result + term
-        return result
-
-    above = polynomial(element.numerator)
-    return above if element.denominator is None else above / polynomial(element.denominator)

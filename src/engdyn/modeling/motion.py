@@ -88,11 +88,11 @@ def measure_numbers(*quantities: Any) -> list[sm.Expr]:
     found: list[sm.Expr] = []
     for quantity in quantities:
         if isinstance(quantity, Vector):
-            found += [e for matrix, _ in quantity.args for e in matrix]
+            found += [e for matrix, _ in quantity.args for e in matrix.flat()]
         elif isinstance(quantity, Dyadic):
             found += [part[0] for part in quantity.args]
         elif isinstance(quantity, sm.MatrixBase):
-            found += list(quantity)
+            found += quantity.flat()
         else:
             found.append(as_expression(quantity))
     return found
@@ -116,10 +116,13 @@ class Motion:
         """The matrix that turns components in `b` into components in `a` (None for the identity)."""
         if a is b:
             return None
+        if (b, a) in self._rotations:
+            return [list(column) for column in zip(*self._rotations[b, a], strict=True)]
         if (a, b) not in self._rotations:
             product: list[Triple] | None = None
             for step in rotation_steps(a, b):
-                rows = [[self.state.convert(step[i, j]) for j in range(3)] for i in range(3)]
+                entries = [self.state.convert(e) for e in step.flat()]
+                rows = [entries[:3], entries[3:6], entries[6:]]
                 product = rows if product is None else [_row_times(row, rows) for row in product]
             self._rotations[a, b] = product
         return self._rotations[a, b]
@@ -128,7 +131,7 @@ class Motion:
         """Components of a vector in a frame."""
         total = [self.state.ring.zero] * 3
         for matrix, own in vector.args:
-            part = [self.state.convert(e) for e in matrix]
+            part = [self.state.convert(e) for e in matrix.flat()]
             total = [a + b for a, b in zip(total, self.turned(part, own, frame), strict=True)]
         return total
 

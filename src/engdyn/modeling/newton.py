@@ -94,7 +94,7 @@ def newton_euler(
     state, motion, paths = _prepare(free_bodies, coordinates, frame, unknowns, speeds, rates)
     rows = [row for body in free_bodies for row in _balances(body, motion, paths)]
     balances = Balances(state, [row for row in rows if not row.residual.is_zero()], unknowns)
-    balances.check(_other_symbols(free_bodies, unknowns))
+    balances.check(lambda: _other_symbols(free_bodies, unknowns))
     mass, force = balances.projected() or balances.eliminated()
     return EquationsOfMotion.from_elements(state, mass, force, "Newton-Euler", balances.reactions)
 
@@ -173,7 +173,7 @@ def _prepare(
         paths[body.center] = path_of_point(body.center, frame)
         moving += _kinematic_scalars(body, paths[body.center], frame)
         loads += body.scalars()
-    state = State(coordinates, [*moving, *loads], speeds, rates, moving=moving)
+    state = State(coordinates, [*moving, *loads], speeds, rates, moving=moving, unknowns=unknowns)
     return state, Motion(state, frame), paths
 
 
@@ -187,7 +187,7 @@ def _kinematic_scalars(body: FreeBody, path: VectorPath, frame: ReferenceFrame) 
     turning += [unit.args[0][1] for part in inertia[0].args for unit in part[1:]] if inertia else []
     vectors += [spin for f in dict.fromkeys(turning) for spin in spin_steps(f, frame)]
     frames = dict.fromkeys([*turning, *(f for v in (*vectors, *body.vectors()) for _, f in v.args)])
-    turns = [step for f in frames for a, b in ((frame, f), (f, frame)) for step in rotation_steps(a, b)]
+    turns = [step for f in frames for step in rotation_steps(frame, f)]
     return measure_numbers(*vectors, *inertia, *turns)
 
 

@@ -14,15 +14,17 @@ from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.conversion import Converter
 from engdyn.algebra.elimination import eliminate, solve
-from engdyn.algebra.expressions import as_expression
 from engdyn.algebra.readable import to_sympy, tree
 from engdyn.algebra.ring import Derivation, Element, Ring
-from engdyn.algebra.scan import derivative_key
+from engdyn.algebra.scan import derivative_key, key_to_sympy
 from engdyn.errors import EngdynError
 
-__all__ = ["State", "check_coordinates", "dependent_rates"]
+__all__ = ["State", "check_coordinates", "dependent_rates", "rates_of"]
 
 Key = tuple
+
+#: Reactions beyond one for each coordinate for which rings have room: systems of few bodies need no more.
+ROOM = 4
 
 
 def check_coordinates(coordinates: Iterable[sm.Expr]) -> tuple[sm.Expr, ...]:
@@ -44,6 +46,11 @@ def check_coordinates(coordinates: Iterable[sm.Expr]) -> tuple[sm.Expr, ...]:
     return found
 
 
+def rates_of(coordinates: Iterable[sm.Expr]) -> tuple[sm.Expr, ...]:
+    """The time derivatives of dynamicsymbols."""
+    return tuple(key_to_sympy(("function", q, 1)) for q in coordinates)
+
+
 class State:
     """Generators of the motion and the total time derivative.
 
@@ -61,6 +68,8 @@ class State:
     moving : iterable of sympy.Expr
         Those of the expressions that will be differentiated by time: their dynamicsymbols get
         generators for two further derivatives.
+    unknowns : sequence of sympy.Symbol
+        Reaction magnitudes: they come last, so that rings of one system agree in all else.
     """
 
     def __init__(
@@ -71,19 +80,21 @@ class State:
         rates: Mapping[sm.Expr, sm.Expr] | None = None,
         substitute: bool = True,
         moving: Iterable[sm.Expr] = (),
+        unknowns: Sequence[sm.Symbol] = (),
     ):
-        t = dynamicsymbols._t
         self.coordinates = tuple(coordinates)
-        self.speeds = tuple(q.diff(t) for q in coordinates) if speeds is None else tuple(speeds)
+        self.speeds = rates_of(coordinates) if speeds is None else tuple(speeds)
         self.rates = dict(rates or {})
         speed_keys = [derivative_key(u) for u in self.speeds]
         keys = [("function", u[1], u[2] + 1) for u in speed_keys] + speed_keys
         if not substitute:
             keys = [("function", q, k) for k in (2, 1) for q in self.coordinates]
         keys += [("function", q, 0) for q in self.coordinates]
-        keys += self._prescribed([*moving, *self.rates.values()], keys)
         substitutions = {("function", q, 1): rate for q, rate in self.rates.items()} if substitute else {}
-        self.converter = Converter([*expressions, *self.rates.values()], keys, substitutions)
+        room = max(0, len(self.coordinates) + ROOM - len(unknowns)) if self.coordinates else 0
+        last = [("symbol", x) for x in unknowns]
+        moving = [*moving, *self.rates.values()]
+        self.converter = Converter([*expressions, *moving], keys, substitutions, moving, last, room)
         self.convert = self.converter.convert
         self.ring: Ring = self.converter.ring
         self.speed_keys = speed_keys
@@ -91,12 +102,6 @@ class State:
         seeds = self._time_seeds()
         functions = [i for i, key in enumerate(self.ring.keys) if key[0] == "function"]
         self.time_derivative = Derivation(self.ring, seeds, unknown=set(functions) - set(seeds))
-
-    def _prescribed(self, moving: Iterable[sm.Expr], known: list[Key]) -> list[Key]:
-        """Keys of prescribed motions and their first two derivatives, as far as they are needed."""
-        functions = {f for e in moving for f in as_expression(e).atoms(AppliedUndef)}
-        own = {key[1] for key in known}
-        return [("function", f, k) for f in sorted(functions - own, key=str) for k in (0, 1, 2)]
 
     def _time_seeds(self) -> dict[int, Element]:
         ring, t = self.ring, ("symbol", dynamicsymbols._t)
@@ -112,8 +117,10 @@ class State:
 
     def rate_elements(self) -> list[Element]:
         """q̇ as ring elements, one per coordinate."""
-        t = dynamicsymbols._t
-        return [self.convert(self.rates[q] if q in self.rates else q.diff(t)) for q in self.coordinates]
+        return [
+            self.convert(self.rates[q]) if q in self.rates else self.ring.generator(("function", q, 1))
+            for q in self.coordinates
+        ]
 
     def speed_partials(self) -> list[Derivation]:
         """∂/∂u for every speed."""
@@ -141,7 +148,6 @@ def dependent_rates(
     speeds, rates
         The independent speeds and, for each dependent coordinate, its rate in terms of them.
     """
-    t = dynamicsymbols._t
     state = State(coordinates, constraints)
     matrix = _linear_in_rates(state, constraints)
     order = list(range(len(coordinates)))
@@ -164,7 +170,7 @@ def dependent_rates(
         raise EngdynError("as many velocity constraints as coordinates: nothing is left that can move")
     found = _solved(matrix, dependent, independent, state)
     rates = {coordinates[j]: to_sympy(tree(e)) for j, e in zip(dependent, found, strict=True)}
-    return tuple(coordinates[i].diff(t) for i in independent), rates
+    return rates_of(coordinates[i] for i in independent), rates
 
 
 def _linear_in_rates(state: State, constraints: Sequence[sm.Expr]) -> list[list[Element]]:

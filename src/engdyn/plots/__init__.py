@@ -9,10 +9,16 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "alternative": ["alt", "show"],
         "charts": ["flow_chart"],
-        "drawing": ["draw"],
+        "drawing": ["draw", "sketch"],
+        "ellipsoid_picture": ["equivalent_ellipsoid"],
         "energy": ["potential_energy"],
         "equilibria": ["branches", "equilibrium_poses"],
+        "inertia_pictures": ["inertia_terms"],
+        "kinematic_pictures": ["acceleration_terms", "kinematic_chain", "orientations", "vector_change"],
         "projection": ["View"],
+        "free_body_diagram": ["free_body"],
         "look": ["style"],
+        "gyro_pictures": ["bicycle", "gyroscope", "precession_cones", "sphere_paths"],
+        "newton_pictures": ["curves", "regions"],
     },
 )

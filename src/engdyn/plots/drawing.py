@@ -166,8 +166,8 @@ def checked_pose(system: System, q: ArrayLike) -> NDArray[np.float64]:
 
 def shown_pose(system: System) -> NDArray[np.float64]:
     """Return a pose that shows the coordinates: the system's own, or angles of about 25 degrees."""
-    if (pose := getattr(system, "pose", None)) is not None:
-        return checked_pose(system, pose)
+    if system.pose is not None:
+        return checked_pose(system, system.pose)
     return np.array([_shown_value(coordinate) for coordinate in system.coordinates])
 
 

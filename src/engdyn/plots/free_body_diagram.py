@@ -64,7 +64,7 @@ def free_body(
     body : FreeBody
     values : mapping, optional
         Symbols, coordinates or their names → numbers [SI], for the geometry; what is not given is 0.45 rad
-        inside sines and cosines and 1 elsewhere.
+        inside sines and cosines and 1 elsewhere; time is 0.
     ax : matplotlib.axes.Axes, optional
         Where to draw; default: new axes of a new figure.
     frame : ReferenceFrame, optional
@@ -205,9 +205,9 @@ class _Numbers:
         }
         rates = sorted(component.atoms(sm.Derivative), key=lambda d: -d.derivative_count)
         for atom in (*rates, *component.atoms(AppliedUndef), *component.atoms(sm.Symbol)):
-            if atom != dynamicsymbols._t:
-                value = self.values.get(key_name(atom), 0.45 if atom in turning else 1.0)
-                component = component.xreplace({atom: _finite(value, key_name(atom))})
+            usual = 0.0 if atom == dynamicsymbols._t else 0.45 if atom in turning else 1.0
+            value = self.values.get(key_name(atom), usual)
+            component = component.xreplace({atom: _finite(value, key_name(atom))})
         try:
             return float(component)
         except TypeError as error:

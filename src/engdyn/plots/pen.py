@@ -88,12 +88,21 @@ class Pen:
         self.lines.append(Line(self.view.project(points), role, weight, dash, level))
 
     def area(
-        self, points: ArrayLike, role: str, weight: float = 1.6, fill: str = "", level: float | None = None
+        self,
+        points: ArrayLike,
+        role: str,
+        weight: float = 1.6,
+        fill: str = "",
+        level: float | None = None,
+        at: ArrayLike | None = None,
     ) -> None:
-        """Draw a closed outline and fill it, by default as a body or, with that role, as ground."""
+        """Draw a closed outline and fill it, by default as a body or, with that role, as ground.
+
+        A mark of fixed size on paper stands for the point `at`, which decides what it hides.
+        """
         fill = fill or ("ground" if role == "ground" else "body")
         level = LEVELS[role] if level is None else level
-        depth = self.view.depth(points)
+        depth = self.view.depth(points if at is None else [at])
         self.areas.append(Area(self.view.project(points), role, weight, fill, level, depth))
 
     def head(self, tip: ArrayLike, along: ArrayLike, role: str, length: float = 10.0) -> None:

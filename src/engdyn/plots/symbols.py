@@ -66,7 +66,7 @@ def _(shape: shapes.Disc, pen: Pen) -> None:
 @trace.register
 def _(shape: shapes.Particle, pen: Pen) -> None:
     center = pen.view.project([shape.point])[0]
-    pen.area(arc(tuple(center), 6.0 * pen.unit, _CIRCLE[::3]), shape.role, fill="ink")
+    pen.area(arc(tuple(center), 6.0 * pen.unit, _CIRCLE[::3]), shape.role, fill="ink", at=shape.point)
     pen.text(shape.point, shape.label, "parameter", (1.0, 1.0), 8.0)
 
 

@@ -10,10 +10,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 import sympy as sm
 
 from engdyn.errors import EngdynError
-from engdyn.modeling.inertia import as_tensor, check_positive, is_symbolic, parallel_axis
+from engdyn.modeling.inertia import check_tensor, parallel_axis, rotate_tensor
+from engdyn.modeling.tensors import as_tensor, check_positive, checked_entry, is_symbolic
 
 __all__ = [
     "Composite",
@@ -129,33 +131,85 @@ class Composite:
     """
 
     mass: Any
-    center: tuple[Any, Any, Any]
+    center: tuple[Any, ...]
     tensor: Any
 
+    def __repr__(self) -> str:
+        if is_symbolic(self.mass, *self.center) or not isinstance(self.tensor, np.ndarray):
+            return f"Composite(mass={self.mass}, center={self.center}, tensor={self.tensor})"
+        center = ", ".join(f"{round(x, 12) + 0.0:.4g}" for x in self.center)
+        tensor = self.tensor + 0.0  # -0 reads as 0
+        rows = np.array2string(tensor, precision=4, suppress_small=True, prefix="  tensor about it ")
+        return f"Composite: {self.mass:.4g} kg, center at ({center}) m\n  tensor about it {rows} kg m²"
 
-def composite(parts: Sequence[tuple[Any, Any, Sequence[Any]]]) -> Composite:
-    """A body made of several, in common axes; a hole is a part with negative mass and tensor.
+
+def composite(parts: Sequence[Sequence[Any]], holes: Sequence[Sequence[Any]] = ()) -> Composite:
+    """A body made of several parts, less what was cut out of them.
 
     Parameters
     ----------
-    parts : sequence of (mass, tensor, center)
-        Tensor of each part about its own mass center [kg m²], in axes common to all; center [m].
+    parts : sequence of (mass, tensor, center) or (mass, tensor, center, rotation)
+        Mass [kg], tensor of the part about its own mass center [kg m²], place of that center [m]. The
+        tensor is in axes parallel to the common ones, or in the part's own axes with `rotation`, the
+        3 × 3 matrix whose columns are these axes (sympy: ``common.dcm(own)``).
+    holes : sequence of the same, optional
+        What is missing: mass and tensor of the material that would fill the hole, both positive.
+
+    Returns
+    -------
+    Composite
 
     Raises
     ------
     EngdynError
-        No parts, or a total mass of zero.
+        No parts, a part that is not of this form, a mass that is not positive, holes heavier than the
+        parts or so large that no body remains.
+
+    Notes
+    -----
+    Section B.4. Mass center first, then each part by the parallel-axis theorem to that point, a hole with
+    a minus sign.
+
+    Examples
+    --------
+    >>> from engdyn import solids
+    >>> ring = solids.composite([(4.0, solids.disc(4.0, 2.0), (0, 0, 0))], [(1.0, solids.disc(1.0, 1.0), (0, 0, 0))])
+    >>> ring.mass, float(ring.tensor[2, 2])
+    (3.0, 7.5)
     """
+    signed = [(1, *_part(part, "part")) for part in parts] + [(-1, *_part(hole, "hole")) for hole in holes]
     if not parts:
         raise EngdynError("composite: give at least one part (mass, tensor, center)")
-    mass = sum(part[0] for part in parts)
+    mass = _plain(sum(sign * m for sign, m, _, _ in signed))
     if not is_symbolic(mass) and float(mass) <= 0:
-        raise EngdynError(f"composite: the total mass is {float(mass):g} kg: it must be greater than zero")
-    center = tuple(sum(m * c[i] for m, _, c in parts) / mass for i in range(3))
-    total: Any = None
-    for m, tensor, c in parts:
-        sign = 1 if is_symbolic(m) or m >= 0 else -1
-        arm = [a - b for a, b in zip(c, center, strict=True)]
-        moved = parallel_axis(sign * tensor, sign * m, arm)
-        total = sign * moved if total is None else total + sign * moved
+        raise EngdynError(f"composite: the total mass is {float(mass):g} kg: the holes outweigh the parts")
+    center = tuple(_plain(sum(sign * m * c[i] for sign, m, _, c in signed) / mass) for i in range(3))
+    total: Any = as_tensor([[0, 0, 0]] * 3)
+    for sign, m, tensor, c in signed:
+        moved = parallel_axis(tensor, m, [a - b for a, b in zip(c, center, strict=True)])
+        # A sympy matrix and an array do not add.
+        rows = zip(total.tolist(), moved.tolist(), strict=True)
+        total = as_tensor([[a + sign * b for a, b in zip(x, y, strict=True)] for x, y in rows])
+    if holes and not is_symbolic(*(x for row in total.tolist() for x in row)):
+        check_tensor(total)
     return Composite(mass, center, total)
+
+
+def _plain(value: Any) -> Any:
+    return value if is_symbolic(value) else float(value)
+
+
+def _part(part: Sequence[Any], what: str) -> tuple[Any, Any, tuple[Any, ...]]:
+    """Mass, tensor in the common axes, and center of one part."""
+    if not isinstance(part, Sequence) or len(part) not in (3, 4) or len(tuple(part[2])) != 3:
+        raise EngdynError(f"composite: a {what} is (mass, tensor, center (x, y, z)) and perhaps a rotation")
+    mass, tensor, center = part[0], part[1], tuple(part[2])
+    for x in center:
+        checked_entry(x, f"composite: a coordinate of the center {center}")
+    try:
+        check_positive(mass=mass)
+    except EngdynError as error:
+        raise EngdynError(
+            f"composite: {error}; what is cut out belongs in holes=, with its positive mass"
+        ) from error
+    return mass, tensor if len(part) == 3 else rotate_tensor(tensor, part[3]), center

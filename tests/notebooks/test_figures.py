@@ -1,0 +1,58 @@
+"""Every figure and table of the plan has its cell, with a caption and words for those who cannot see it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import nbformat
+import pytest
+
+LESSONS = Path(__file__).resolve().parents[2] / "notebooks"
+
+PLAN = {
+    "01_kinematics": ([f"1.{k}" for k in range(1, 8)], []),
+    "02_newton": ([f"2.{k}" for k in range(1, 16)], []),
+    "03_lagrange": ([f"3.{k}" for k in range(1, 8)], []),
+    "04_equilibrium": ([f"4.{k}" for k in range(1, 5)], []),
+    "B_inertia": (["B.1"], []),
+}
+"""Notebook → numbers of its figures, numbers of its tables."""
+
+SECTIONS = {"01_kinematics": 7, "02_newton": 14, "03_lagrange": 8, "04_equilibrium": 4, "B_inertia": 4}
+
+MANY_CLAIMS = 10
+
+
+@pytest.fixture
+def cells(lesson):
+    return nbformat.read(LESSONS / f"{lesson}.ipynb", as_version=4).cells
+
+
+def tagged(cells, tag):
+    return [(i, c) for i, c in enumerate(cells) if tag in c.metadata.get("tags", ())]
+
+
+@pytest.mark.parametrize(("lesson", "number"), [(k, n) for k, (figures, _) in PLAN.items() for n in figures])
+def test_a_figure_is_a_picture_with_words_and_a_caption(lesson, number, cells):
+    ((place, cell),) = tagged(cells, f"figure-{number}")
+    pictures = [o for o in cell.outputs if "image/png" in o.get("data", {})]
+    assert pictures
+    for picture in pictures:
+        assert len(picture["data"]["text/plain"]) > 20
+        assert "Figure(" not in picture["data"]["text/plain"]
+    below = "\n".join(c.source for c in cells[place + 1 : place + 4] if c.cell_type == "markdown")
+    assert re.search(rf"^\*Figure {re.escape(number)}\b", below, re.MULTILINE)
+
+
+@pytest.mark.parametrize("lesson", PLAN)
+def test_sections_are_complete_and_claims_are_asserted(lesson, cells):
+    text = "\n".join(c.source for c in cells if c.cell_type == "markdown")
+    chapter = lesson.split("_")[0].lstrip("0")
+    numbers = [int(k) for k in re.findall(rf"^## {chapter}\.(\d+) \S", text, re.MULTILINE)]
+    assert numbers == list(range(1, SECTIONS[lesson] + 1))
+    claims = [c for c in cells if any(t.startswith("claim-") for t in c.metadata.get("tags", ()))]
+    assert len(claims) >= MANY_CLAIMS
+    assert [c.id for c in claims if "assert" not in c.source] == []
+    tags = [t for c in cells for t in c.metadata.get("tags", ()) if t.startswith("claim-")]
+    assert len(set(tags)) == len(tags)
