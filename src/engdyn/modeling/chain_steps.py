@@ -111,7 +111,9 @@ class Steps:
         try:
             frame.orient_axis(before, about, by)
         except ValueError as error:
-            raise EngdynError(f"the axis {about} of frame {name} is not fixed in {before}: {error}") from error
+            raise EngdynError(
+                f"the axis {about} of frame {name} is not fixed in {before}: {error}"
+            ) from error
         self._enter(self.frames, frame)
         self._record("frame", frame, before, frame.ang_vel_in(before), meaning)
         return frame

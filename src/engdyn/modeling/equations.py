@@ -128,17 +128,18 @@ class EquationsOfMotion:
     @cached_property
     def mass_matrix(self) -> sm.Matrix:
         """M(q, t), shape (m, m), factored."""
-        return sm.Matrix([[expression(entry) for entry in row] for row in self.mass])
+        m = len(self.mass)
+        return sm.Matrix(m, m, [expression(entry) for row in self.mass for entry in row])
 
     @cached_property
     def forcing(self) -> sm.Matrix:
         """f(q, u, t), shape (m, 1), factored."""
-        return sm.Matrix([expression(entry) for entry in self.force])
+        return sm.Matrix(len(self.force), 1, [expression(entry) for entry in self.force])
 
     @cached_property
     def kinematics(self) -> sm.Matrix:
         """q̇ = G u + g as expressions, shape (n, 1)."""
-        return sm.Matrix([expression(entry) for entry in self.rates])
+        return sm.Matrix(len(self.rates), 1, [expression(entry) for entry in self.rates])
 
     @cached_property
     def reactions(self) -> dict[sm.Symbol, sm.Expr]:

@@ -187,7 +187,7 @@ def steady_precession(
     --------
     >>> import engdyn as ed
     >>> ed.steady_precession(2.9e-4, 9.2e-5, spin=200.0, nutation=0.4, torque_coefficient=0.059)
-    SteadyPrecession(3.3715 and 65.514 rad/s at spin 200 rad/s and nutation 0.4 rad)
+    SteadyPrecession(3.3715 and 65.515 rad/s at spin 200 rad/s and nutation 0.4 rad)
     >>> ed.steady_precession(2.9e-4, 9.2e-5, spin=60.0, nutation=0.4, torque_coefficient=0.059).rates
     ()
     """

@@ -175,7 +175,8 @@ class AccelerationTerms:
             motion = motion_of([term], [self.frame], self.frame)
             parts = [c for c in motion.components(term, self.frame) if not c.is_zero()]
             if len(parts) > 1:
-                found[name] = sm.sqrt(to_sympy(tree(sum((c * c for c in parts), motion.state.ring.zero))))
+                square = to_sympy(tree(sum((c * c for c in parts), motion.state.ring.zero)))
+                found[name] = sm.Abs(square.base) if square.is_Pow and square.exp == 2 else sm.sqrt(square)
             else:
                 found[name] = sm.Abs(to_sympy(tree(parts[0]))) if parts else sm.S.Zero
         return found

@@ -7,6 +7,7 @@ set of speeds is an invertible linear function of the other.  Course sections 2.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass
 
 import sympy as sm
@@ -74,7 +75,7 @@ def transformation(a: EquationsOfMotion, b: EquationsOfMotion) -> Transformation
     EngdynError
         The speeds of `a` cannot be found from the rates of its coordinates.
     """
-    ring, (into_a, into_b) = common_ring([a.ring, b.ring])
+    ring, (into_a, into_b) = common_ring([_apart(a), b.ring])
     rates_a = [into_a(e) for e in a.rates]
     rates_b = [into_b(b.rates[names(b.coordinates).index(q)]) for q in names(a.coordinates)]
     keys_a, keys_b = ([_key(ring, u) for u in eom.speeds] for eom in (a, b))
@@ -100,6 +101,27 @@ def transformation(a: EquationsOfMotion, b: EquationsOfMotion) -> Transformation
         () if size.is_zero() else _zeros(size),
         (into_a, into_b),
     )
+
+
+def _apart(eom: EquationsOfMotion) -> Ring:
+    """The ring of equations with other keys for roots, magnitudes and calls of rates.
+
+    They are keyed by the expression they came from; in other speeds, that expression is another element.
+    """
+    t, ring = dynamicsymbols._t, copy(eom.ring)
+    marks = {rate: sm.Dummy() for q in eom.coordinates for rate in [q.diff(t)]}
+    marks |= {u: sm.Dummy() for u in eom.speeds if u not in marks}
+    ring.keys = tuple(
+        (key[0], key[1].xreplace(marks))
+        if i in ring.definitions and len(key) == 2 and _has_arguments(ring, i)
+        else key
+        for i, key in enumerate(ring.keys)
+    )
+    return ring
+
+
+def _has_arguments(ring: Ring, index: int) -> bool:
+    return bool(ring.definitions[index].arguments)
 
 
 def restated(a: EquationsOfMotion, b: EquationsOfMotion, change: Transformation) -> EquationsOfMotion:
