@@ -118,6 +118,42 @@ def analyze(
     print(f"wrote {target}")
 
 
+@app.command()
+def matrix(
+    systems: Annotated[
+        list[str] | None, typer.Argument(metavar="[KEY]...", help="Systems; all of the catalogue if none.")
+    ] = None,
+    only: Annotated[
+        list[str] | None, typer.Option(help="An analysis, for example derivation; may be repeated.")
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+    sabotage: Annotated[
+        bool, typer.Option("--sabotage", help="Corrupt what each check works on: every check must fail.")
+    ] = False,
+) -> None:
+    """Take all systems through all analyses; every cell is a check that can fail."""
+    from json import dumps
+
+    from rich.console import Console
+
+    from .course.matrix import matrix as fill
+    from .course.matrix_table import matrix_table, summary
+
+    watch = sys.stderr.isatty()
+    found = fill(
+        systems or (),
+        only or (),
+        sabotage,
+        (lambda cell: _step(f"{cell.system} {cell.analysis}: {cell.status}")) if watch else None,
+    )
+    if json:
+        print(dumps(found.as_dict(), indent=1, ensure_ascii=False))
+    else:
+        Console().print(matrix_table(found))
+        print("\n".join(summary(found)))
+    raise typer.Exit(0 if found.right and not sabotage else 1)
+
+
 def _step(step: str) -> None:
     """One line of progress, for people who watch."""
     print(f"  {step} ...", file=sys.stderr, flush=True)

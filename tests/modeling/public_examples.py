@@ -1,4 +1,4 @@
-"""Textbook systems that nobody here chose: the worked examples of sympy's mechanics, modeled anew from their description."""
+"""Textbook systems that nobody here chose: worked examples of sympy's mechanics, modeled anew."""
 
 from __future__ import annotations
 
@@ -71,9 +71,7 @@ def blocks_on_springs() -> Model:
         Particle("lower", P, M),
         [Force(P, -(k1 * x + c1 * x.diff(t)) * N.x), Force(P, coupling), Force(P, M * g * N.x)],
     )
-    upper = ed.FreeBody(
-        Particle("upper", Q, m), [Force(Q, -coupling), Force(Q, (F + m * g) * N.x)]
-    )
+    upper = ed.FreeBody(Particle("upper", Q, m), [Force(Q, -coupling), Force(Q, (F + m * g) * N.x)])
     T = M * x.diff(t) ** 2 / 2 + m * (x.diff(t) + y.diff(t)) ** 2 / 2
     V = k1 * x**2 / 2 + k2 * y**2 / 2 - M * g * x - m * g * (x + y)
     D = c1 * x.diff(t) ** 2 / 2 + c2 * y.diff(t) ** 2 / 2
@@ -201,7 +199,10 @@ def four_bar() -> Linkage:
         bar.orient_axis(N, angle, N.z)
     at = [names[i] * N.x + names[i + 1] * N.y for i in (0, 2, 4, 6)]
     starts = [O, O.locatenew("A", lengths[0] * bars[0].x), C]
-    ends = [s.locatenew(f"E{i}", l * bar.x) for i, (s, l, bar) in enumerate(zip(starts, lengths, bars, strict=True))]
+    ends = [
+        s.locatenew(f"E{i}", l * bar.x)
+        for i, (s, l, bar) in enumerate(zip(starts, lengths, bars, strict=True))
+    ]
     reactions = [
         [Force(O, at[0]), Force(ends[0], -at[1])],
         [Force(starts[1], at[1]), Force(ends[1], -at[2])],
@@ -309,7 +310,14 @@ def sleigh() -> Model:
     T = m * (v[0] ** 2 + v[1] ** 2) / 2 + J * p_d**2 / 2
     edge = -x.diff(t) * sin(psi) + y.diff(t) * cos(psi)
     return Model(
-        [x, y, psi], T, 0, [free], N, [S], forces={x: F * cos(psi), y: F * sin(psi), psi: M}, constraints=[edge]
+        [x, y, psi],
+        T,
+        0,
+        [free],
+        N,
+        [S],
+        forces={x: F * cos(psi), y: F * sin(psi), psi: M},
+        constraints=[edge],
     )
 
 

@@ -8,7 +8,15 @@ import sys
 import numpy as np
 import pytest
 import sympy as sm
-from sympy.physics.mechanics import dynamicsymbols
+from sympy.physics.mechanics import (
+    Force,
+    Particle,
+    Point,
+    ReferenceFrame,
+    RigidBody,
+    dynamicsymbols,
+    inertia,
+)
 
 import engdyn as ed
 from engdyn.algebra import polynomials
@@ -309,6 +317,138 @@ def test_other_coordinates_or_speeds_are_an_error():
         ed.prove_equal(rolling, free)
     with pytest.raises(ed.EngdynError, match="not EquationsOfMotion"):
         ed.prove_equal(one(k * x), m * x_dd + k * x)
+
+
+# Speeds chosen differently
+
+
+def top(in_body_rates: bool, spin_sign: int = 1) -> ed.EquationsOfMotion:
+    """A body on a fixed point in Euler's angles 3-1-3: their rates, or the components of ω in body axes."""
+    psi, theta, phi = dynamicsymbols("psi theta phi")
+    w = dynamicsymbols("omega_1:4")
+    A, C, g = sm.symbols("A C g", positive=True)
+    N, B, O = ReferenceFrame("N"), ReferenceFrame("B"), Point("O")
+    B.orient_body_fixed(N, (psi, theta, phi), "ZXZ")
+    O.set_vel(N, 0)
+    rates = {}
+    if in_body_rates:
+        B.set_ang_vel(N, w[0] * B.x + w[1] * B.y + w[2] * B.z)
+        turn = (w[0] * sin(phi) + w[1] * cos(phi)) / sin(theta)
+        rates = {
+            psi: turn,
+            theta: w[0] * cos(phi) - w[1] * sin(phi),
+            phi: spin_sign * w[2] - turn * cos(theta),
+        }
+    G = O.locatenew("G", l * B.z)
+    body = RigidBody("top", G, B, m, (inertia(B, A, A, C), G))
+    S = sm.symbols("S_x S_y S_z")
+    support = S[0] * N.x + S[1] * N.y + S[2] * N.z
+    free = ed.FreeBody(body, [Force(G, -m * g * N.z)], [Force(O, support)])
+    described = {"speeds": w, "kinematics": rates} if in_body_rates else {}
+    return ed.newton_euler([free], [psi, theta, phi], N, S, **described)
+
+
+def test_body_rates_and_rates_of_angles_describe_one_motion():
+    angles, body = top(False), top(True)
+    for pair in ((angles, body), (body, angles)):
+        proof = ed.prove_equal(*pair)
+        assert proof.verdict == "proved"
+        assert "sin(theta) is not zero" in proof.method
+        assert "psi', theta', phi'" in proof.method
+        assert "omega_1, omega_2, omega_3" in proof.method
+
+
+def test_a_mistake_is_named_in_the_speeds_of_the_second_set():
+    angles, body = top(False), top(True)
+    m_dd = sm.Matrix([u.diff(t) for u in angles.speeds])
+    rows = list(angles.mass_matrix * m_dd - angles.forcing)
+    theta = angles.coordinates[1]
+    g = sm.Symbol("g", positive=True)
+    rows[1] = rows[1] - m * g * l * sin(theta)
+    wrong = ed.EquationsOfMotion.from_residuals(rows, angles.coordinates)
+    proof = ed.prove_equal(wrong, body)
+    assert proof.verdict == "refuted"
+    assert proof.witness.quantity == "the acceleration of omega_1"
+    assert {d.kind for d in proof.differences} == {"factor"}
+    assert {d.factor for d in proof.differences} == {2}
+    at = proof.witness.state
+    values = {name: at[name] for name in ("A", "C", "m", "l", "g")}
+    q = [at.get("psi", 0.0), at["theta"], at.get("phi", 0.0)]
+    u = [at.get(f"omega_{i}", 0.0) for i in (1, 2, 3)]
+    assert body.accelerations(q, u, values)[0] == pytest.approx(proof.witness.values[1], rel=1e-9)
+    inertia_about_O = values["A"] + values["m"] * values["l"] ** 2
+    extra = values["m"] * values["g"] * values["l"] * np.sin(q[1]) * np.cos(q[2]) / inertia_about_O
+    assert proof.witness.values[0] - proof.witness.values[1] == pytest.approx(extra, rel=1e-9)
+
+
+def test_speeds_of_one_name_and_another_meaning():
+    assert ed.prove_equal(top(True), top(True))
+    proof = ed.prove_equal(top(True, spin_sign=-1), top(True))
+    assert proof.verdict == "refuted"
+    assert "kinematics" in proof.method
+    assert "the rate of phi" in proof.witness.quantity
+    doubled = [_slider_with_speed(factor) for factor in (1, 2)]
+    proof = ed.prove_equal(*doubled)
+    assert proof.verdict == "proved"
+    assert "another meaning" in proof.method
+
+
+def _slider_with_speed(factor: int) -> ed.EquationsOfMotion:
+    """m x'' = F with the speed u = x'/factor."""
+    u = dynamicsymbols("u")
+    N, O = ReferenceFrame("N"), Point("O")
+    O.set_vel(N, 0)
+    P = O.locatenew("P", x * N.x)
+    free = ed.FreeBody(Particle("slider", P, m), [Force(P, (F - c * sm.Abs(x.diff(t)) * x.diff(t)) * N.x)])
+    return ed.newton_euler([free], [x], N, [], speeds=[u], kinematics={x: factor * u})
+
+
+def sled(lateral: sm.Expr, *speeds: sm.Expr, mass: sm.Expr = m, drag: sm.Expr = 0) -> ed.EquationsOfMotion:
+    psi = dynamicsymbols("psi")
+    T = mass * (x.diff(t) ** 2 + y.diff(t) ** 2) / 2 + k * psi.diff(t) ** 2 / 2
+    constraint = -x.diff(t) * sin(psi) + y.diff(t) * cos(psi) + lateral * psi.diff(t)
+    q = [x, y, psi]
+    return ed.lagrange(T, 0, q, 0, {x: -drag}, [constraint], speeds=[s.diff(t) for s in speeds] or None)
+
+
+def test_any_independent_speeds_of_a_nonholonomic_system():
+    psi = dynamicsymbols("psi")
+    first, second = sled(l, x, psi), sled(l, y, psi)
+    assert ed.prove_equal(first, second)
+    assert ed.prove_equal(second, sled(l, y, x))
+    heavier = ed.prove_equal(sled(l, x, psi, mass=2 * m), second)
+    assert heavier.verdict == "refuted"
+    assert heavier.witness.quantity.startswith("the acceleration of ")
+    shifted = ed.prove_equal(sled(2 * l, x, psi), second)
+    assert shifted.verdict == "refuted"
+    assert "velocity constraints differ" in shifted.method
+    assert shifted.witness.quantity.startswith("the rate of ")
+
+
+def test_rates_inside_roots_are_carried_over():
+    """A root of one form means another element in other speeds: to mix them up would refute what is true."""
+    psi = dynamicsymbols("psi")
+    drag = c * x.diff(t) * sm.sqrt(l**2 + x.diff(t) ** 2)
+    assert ed.prove_equal(sled(l, x, psi, drag=drag), sled(l, y, psi, drag=drag)).verdict == "proved"
+    assert ed.prove_equal(sled(l, x, psi, drag=drag), sled(l, y, psi, drag=2 * drag)).verdict == "refuted"
+    speed = c * x.diff(t) * sm.sqrt(x.diff(t) ** 2 + y.diff(t) ** 2 + l**2 * psi.diff(t) ** 2)
+    proof = ed.prove_equal(sled(l, x, psi, drag=speed), sled(l, y, psi, drag=speed))
+    assert proof.verdict != "refuted"
+
+
+def test_messages_of_what_cannot_be_compared():
+    energy, tie = m * (x.diff(t) ** 2 + y.diff(t) ** 2) / 2, x.diff(t) - y.diff(t)
+    free, tied = ed.lagrange(energy, 0, [x, y]), ed.lagrange(energy, 0, [x, y], constraints=[tie])
+    same_freedom = r"1 \(x'\) and 2 \(x', y'\); both sets must have the same degrees of freedom"
+    with pytest.raises(ed.EngdynError, match=same_freedom):
+        ed.prove_equal(tied, free)
+    with pytest.raises(ed.EngdynError, match=r"the second argument, .*, is not EquationsOfMotion: make them"):
+        ed.prove_equal(one(k * x), "m*a = F")
+    singular = two(x_dd + y_dd - k, 2 * x_dd + 2 * y_dd - k * x)
+    with pytest.raises(
+        ed.EngdynError, match=r"singular mass matrix of the first set.*combination of the others"
+    ):
+        ed.prove_equal(singular, two(*RIGHT))
 
 
 def test_other_kinematics_are_refuted():

@@ -14,6 +14,7 @@ from engdyn.course.case import Case
 from engdyn.course.evaluation import NoValueError, evaluate, real, solve
 from engdyn.course.sameness import ROUNDED, TERMS, cost, value_pairs
 from engdyn.course.statics import small_angle
+from engdyn.modeling.diagnosis import nature
 from engdyn.modeling.differences import Difference
 from engdyn.modeling.equality import Proof, prove_equal
 from engdyn.modeling.equations import EquationsOfMotion
@@ -138,40 +139,22 @@ def _all_small(expr: sm.Expr, case: Case) -> sm.Expr:
 
 def _in_words(differences: Sequence[Difference], case: Case) -> str:
     """What differs, in words that name the kind of a term but not the term that is missing."""
-    first = min(differences, key=lambda d: ("sign", "factor", "extra", "missing").index(d.kind))
+    inputs = [i.symbol for i in case.system.inputs]
+    first = min(differences, key=lambda d: ("sign", "factor", "changed", "extra", "missing").index(d.kind))
     where = f"Equation {first.equation}: " if len(case.system.coordinates) > 1 else ""
-    kind = _kind(first.term, case)
+    kind = nature(first.term, inputs)
     said = {
         "missing": f"{kind} is missing or incomplete",
         "extra": f"{kind} stands there that does not belong there",
         "sign": f"{kind} has the wrong sign",
         "factor": f"{kind} has a wrong constant factor",
+        "changed": f"{kind} is not what it should be",
     }[first.kind]
-    others = len({(d.equation, d.kind, _kind(d.term, case)) for d in differences}) - 1
+    others = len({(d.equation, d.kind, nature(d.term, inputs)) for d in differences}) - 1
     more = (
         f" (After it, {others} more {'term differs' if others == 1 else 'terms differ'}.)" if others else ""
     )
+    remark = f" {first.remark[:1].upper()}{first.remark[1:]}" if first.remark else ""
+    stop = "." if remark and remark[-1] not in ".?!" else ""
     text = f"{where}{said}."
-    return text[:1].upper() + text[1:] + more
-
-
-def _kind(term: sm.Expr, case: Case) -> str:
-    """What a term is: inertia, centrifugal and Coriolis, damping, input, weight, stiffness."""
-    t = dynamicsymbols._t
-    rates = {d for d in term.atoms(sm.Derivative) if d.variable_count[0][1] == 1}
-    if any(d.variable_count[0][1] == 2 for d in term.atoms(sm.Derivative)):
-        return "an inertia term (with an acceleration)"
-    if rates:
-        zero = term.xreplace(dict.fromkeys(rates, sm.S.Zero))
-        doubled = term.xreplace({d: 2 * d for d in rates})
-        quadratic = zero == 0 and sm.expand(doubled - 4 * term) == 0
-        return "a term with squares or products of rates" if quadratic else "a term with rates (a damper?)"
-    inputs = [i.name for i in case.system.inputs if term.has(i.symbol)]
-    if inputs:
-        return f"a term with the input {' and '.join(inputs)}"
-    names = sorted(s.name for s in term.free_symbols if s != t)
-    return (
-        "a weight term (with g)"
-        if "g" in names
-        else f"a static term (with {', '.join(names) or 'numbers only'})"
-    )
+    return text[:1].upper() + text[1:] + remark + stop + more

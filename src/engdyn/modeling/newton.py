@@ -93,7 +93,7 @@ def newton_euler(
         speeds, rates = _check_kinematics(coordinates, speeds, kinematics)
     state, motion, paths = _prepare(free_bodies, coordinates, frame, unknowns, speeds, rates)
     rows = [row for body in free_bodies for row in _balances(body, motion, paths)]
-    balances = Balances(state, [row for row in rows if not row.residual.is_zero()], unknowns)
+    balances = Balances(state, rows, unknowns)
     balances.check(lambda: _other_symbols(free_bodies, unknowns))
     mass, force = balances.projected() or balances.eliminated()
     return EquationsOfMotion.from_elements(state, mass, force, "Newton-Euler", balances.reactions)
@@ -249,6 +249,7 @@ def _rows(
         residual = inertia[i]
         for load in loads:
             residual = residual - load[i]
-        partials = [partial(velocity[i]) for partial in state.speed_partials()]
-        rows.append(Balance(f"{what} along {axes}.{letter}", residual, partials))
+        if not residual.is_zero():  # 0 = 0 says nothing
+            partials = [partial(velocity[i]) for partial in state.speed_partials()]
+            rows.append(Balance(f"{what} along {axes}.{letter}", residual, partials))
     return rows

@@ -1,0 +1,225 @@
+"""What each cell of the matrix checks: one real test of one analysis on one system.
+
+Every check has an oracle of its own (finite differences, an exact proof, the nonlinear equations), and every
+check can be given a corrupted input, which it must not let pass.  Appendix A.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import sympy as sm
+from sympy.physics.vector import ReferenceFrame, dynamicsymbols
+
+from engdyn.analysis.linear import linearize
+from engdyn.analysis.results import Equilibrium
+from engdyn.analysis.stability import stability
+from engdyn.errors import EngdynError
+from engdyn.modeling.equality import prove_equal
+from engdyn.modeling.instants import components, motion_at, rotation_matrix
+from engdyn.modeling.kinematic_chain import KinematicChain
+from engdyn.modeling.lagrange import lagrange
+from engdyn.modeling.motion import VectorPath, path_of_point
+from engdyn.system import System
+
+__all__ = ["CHECKS", "CheckFailure"]
+
+STEP = 2e-4
+"""Of finite differences in time [s]; their error is of second order."""
+
+CORRUPTION = 1.01
+"""What a corrupted input is multiplied with."""
+
+
+class CheckFailure(EngdynError):
+    """An analysis gave what it must not give."""
+
+
+def _compare(found: Any, expected: Any, tolerance: float, what: str) -> None:
+    """Raise unless two arrays agree on the scale of their largest entry."""
+    found, expected = np.asarray(found, float), np.asarray(expected, float)
+    scale = float(np.max(np.abs([found, expected]), initial=1e-3))
+    error = float(np.max(np.abs(found - expected), initial=0.0)) / scale
+    if not error <= tolerance:
+        raise CheckFailure(f"{what} is {error:.2g} off")
+
+
+def kinematics(system: System, corrupt: bool) -> str:
+    """Velocity and acceleration of every mass center and body, against differences of a motion in time.
+
+    Corrupted, the rates of the coordinates are one percent too large.
+    """
+    ground, bodies, moments = system.frame, system.free_bodies(), _moments(system)
+    before, now, after = moments
+    if corrupt:
+        now = {name: x * (CORRUPTION if name.endswith("_d") else 1.0) for name, x in now.items()}
+    for body in bodies:
+        path = path_of_point(body.center, ground)
+        chain = KinematicChain(ground, origin=path.start)
+        chain.add(body.body)
+        places = [_place(path, ground, at) for at in moments]
+        velocity = components(chain.velocity(body.center), ground, now)
+        _compare(velocity, (places[2] - places[0]) / (2 * STEP), 1e-5, f"the velocity of {body.name}")
+        acceleration = components(chain.acceleration(body.center), ground, now)
+        second = (places[2] - 2 * places[1] + places[0]) / STEP**2
+        _compare(acceleration, second, 1e-5, f"the acceleration of {body.name}")
+        if body.turns:
+            _compare_turning(chain, body.body.frame, moments, now, body.name)
+    return f"{len(bodies)} {'body' if len(bodies) == 1 else 'bodies'} followed"
+
+
+def _moments(system: System) -> list[dict[str, float]]:
+    """Numbers for everything at three instants of a smooth motion."""
+    t, random = dynamicsymbols._t, np.random.default_rng(7)
+    moving = [*(c.symbol for c in system.coordinates), *(i.symbol for i in system.inputs)]
+    scales = [0.1 * (c.bounds[1] if c.bounds else 1.0) for c in system.coordinates] + [0.1] * len(
+        system.inputs
+    )
+    paths: dict[Any, sm.Expr] = {}
+    for q, scale in zip(moving, scales, strict=True):
+        a, b, c = (float(x) for x in random.uniform(0.5, 1.5, 3))
+        paths[q] = scale * (a + b * sm.sin(c * t))
+    rest = {s.name: 0.0 for s in system.unknowns}
+    times = (0.7 - STEP, 0.7, 0.7 + STEP)
+    return [system.values() | rest | motion_at(paths, x) | {t.name: x} for x in times]
+
+
+def _place(path: VectorPath, ground: ReferenceFrame, at: Mapping[str, float]) -> np.ndarray:
+    given = path.start._vel_dict[ground]
+    if given != 0:
+        raise CheckFailure(
+            f"the motion of {path.start} is given by its velocity: place it from a fixed point"
+        )
+    return np.sum([np.zeros(3), *(components(step, ground, at) for step in path.steps)], axis=0)
+
+
+def _compare_turning(
+    chain: KinematicChain,
+    frame: ReferenceFrame,
+    moments: list[dict[str, float]],
+    now: Mapping[str, float],
+    name: str,
+) -> None:
+    """ω and α of a frame against its rotation matrices R: the vector of Ṙ Rᵀ, and its change."""
+    ground = chain.ground
+    before, middle, after = (rotation_matrix(frame, ground, at) for at in moments)
+    spin = (after - before) / (2 * STEP) @ middle.T
+    turning = (after - 2 * middle + before) / STEP**2 @ middle.T + spin @ spin.T
+    for vector, matrix, what in (
+        (chain.angular_velocity(frame), spin, "velocity"),
+        (chain.angular_acceleration(frame), turning, "acceleration"),
+    ):
+        twice = matrix - matrix.T
+        expected = 0.5 * np.array([twice[2, 1], twice[0, 2], twice[1, 0]])
+        _compare(components(vector, ground, now), expected, 1e-5, f"the angular {what} of {name}")
+
+
+def derivation(system: System, corrupt: bool) -> str:
+    """Newton–Euler and Lagrange proved equal; corrupted, the kinetic energy is one percent too large."""
+    newton = system.newton()
+    energy = system.kinetic_energy * (sm.Rational(101, 100) if corrupt else 1)
+    symbols = [c.symbol for c in system.coordinates]
+    proof = prove_equal(
+        newton,
+        lagrange(
+            energy,
+            system.potential_energy,
+            symbols,
+            system.dissipation,
+            system.generalized_forces,
+            system.constraints,
+        ),
+    )
+    if not proof:
+        raise CheckFailure(f"{proof.verdict}: {proof.method}")
+    count = len(system.unknowns)
+    return f"proved, {count} {'reaction' if count == 1 else 'reactions'} eliminated"
+
+
+def equilibria(system: System, corrupt: bool) -> str:
+    """The nonlinear equations give, at every equilibrium, the accelerations it is said to have.
+
+    Corrupted, each state is moved by one percent of a coordinate.
+    """
+    found = system.equilibria()
+    if not len(found):
+        raise CheckFailure("no equilibrium found in the region")
+    for number, state in enumerate(found, 1):
+        moved = _moved(state, found.neutral) if corrupt else state
+        _compare_accelerations(system, moved, f"equilibrium {number}")
+    kept = {tuple(np.round(state.q, 9)) + tuple(np.round(state.speeds, 9)) for state in found}
+    if len(kept) != len(found):
+        raise CheckFailure("an equilibrium is listed twice")
+    return f"{len(found)}, {'certified' if found.certified else f'{len(found.undecided)} boxes undecided'}"
+
+
+def _moved(state: Equilibrium, neutral: Any) -> Equilibrium:
+    """The state with its first coordinate that matters changed."""
+    q = np.array(state.q)
+    at = next((i for i, name in enumerate(state.names) if name not in neutral), 0)
+    q[at] += (CORRUPTION - 1.0) * max(abs(q[at]), 0.1)
+    return replace(state, q=q)
+
+
+def _compare_accelerations(system: System, state: Equilibrium, what: str) -> None:
+    """Compare u̇ of the equations with that of the state, on the scale of what one percent of a radian does."""
+    eom = system.equations
+
+    def at(q: np.ndarray) -> np.ndarray:
+        return eom.accelerations(q, state.speeds, state.values, state.inputs)
+
+    scale = max(
+        float(np.max(np.abs(at(state.q + step) - at(state.q)))) for step in 0.01 * np.eye(len(state.q))
+    )
+    error = np.max(np.abs(at(state.q) - state.accelerations)) / max(scale, 1e-9)
+    if not error < 1e-6:
+        raise CheckFailure(f"{what}: the accelerations are {error:.2g} off")
+
+
+def small_motion(system: System, corrupt: bool) -> str:
+    """State matrix of every equilibrium against differences of the nonlinear equations.
+
+    Corrupted, it belongs to parameters that are up to one percent larger, each by another part of it.
+    """
+    verdicts = []
+    for number, state in enumerate(system.equilibria(), 1):
+        parts = np.linspace(1.0, CORRUPTION if corrupt else 1.0, len(state.values))
+        values = {name: x * float(part) for (name, x), part in zip(state.values.items(), parts, strict=True)}
+        linear = linearize(system.equations, state, values)
+        what = f"the state matrix of equilibrium {number}"
+        _compare(linear.state_matrix, _slopes(system, state), 1e-5, what)
+        verdicts.append(stability(linear).verdict)
+    if not verdicts:
+        raise CheckFailure("no equilibrium to linearize about")
+    told = {verdict: verdicts.count(verdict) for verdict in verdicts}
+    return ", ".join(f"{count} {verdict}" for verdict, count in told.items())
+
+
+def _slopes(system: System, state: Equilibrium) -> np.ndarray:
+    """∂ẋ/∂x by central differences whose steps are halved once (Richardson), shape (n + m, n + m)."""
+    derivative = system.equations.function(state.values)
+    x = np.concatenate([state.q, state.speeds])
+
+    def columns(size: float) -> Iterator[np.ndarray]:
+        for step in size * np.diag(1.0 + np.abs(x)):
+            difference = derivative(0.0, x + step, state.inputs) - derivative(0.0, x - step, state.inputs)
+            yield difference / (2 * np.max(step))
+
+    coarse, fine = (np.column_stack(list(columns(size))) for size in (2e-4, 1e-4))
+    return (4 * fine - coarse) / 3
+
+
+CHECKS: dict[str, tuple[str, Callable[[System, bool], str] | None]] = {
+    "kinematics": ("Kinematics", kinematics),
+    "derivation": ("Newton = Lagrange", derivation),
+    "equilibria": ("Equilibria", equilibria),
+    "stability": ("Stability", small_motion),
+    "modes": ("Modes", None),
+    "response": ("Frequency response", None),
+    "simulation": ("Simulation", None),
+    "measured": ("Measured data", None),
+}
+"""Analyses in the order of the course: name → (heading, check); an analysis without a check is not built yet."""
