@@ -85,7 +85,7 @@ def test_mass_matrix_and_forcing_read_well():
     assert pendulum.forcing == sm.Matrix([-m * g * l * sin(theta)])
     assert pendulum.kinematics == sm.Matrix([theta_d])
     assert [p.name for p in pendulum.parameters] == ["g", "l", "m"]
-    assert repr(pendulum) == "EquationsOfMotion(theta; 1 equations, from Lagrange)"
+    assert repr(pendulum) == "EquationsOfMotion(theta; 1 equation, from Lagrange)"
     assert "theta" in pendulum._repr_latex_()
 
 

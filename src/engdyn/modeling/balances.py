@@ -71,15 +71,17 @@ class Balances:
                 "the loads are not linear in the unknown reactions: give each reaction one magnitude"
             )
 
-    def check(self, others: Callable[[], Iterable[sm.Symbol]] = tuple) -> None:
+    def check(self, others: Callable[[], Iterable[sm.Symbol]] = tuple, constraints: int = 0) -> None:
         """As many balances as unknown accelerations and reactions, or an error that says what is wrong.
 
         Parameters
         ----------
         others : callable
             Returns the symbols of the reaction loads that are not among the unknowns, for the message.
+        constraints : int
+            How many of the accelerations follow from the others.
         """
-        n, k = len(self.state.speeds), len(self.unknowns)
+        n, k = len(self.state.speeds) - constraints, len(self.unknowns)
         if len(self.rows) == n + k:
             return self._check_independence()
         listing = "; ".join(
@@ -121,22 +123,25 @@ class Balances:
         left = [self.balances[origin].name for origin, row in done.remaining if not row[-1].is_zero()]
         return f"Nothing can satisfy: {', '.join(left)}. " if left else ""
 
-    def projected(self) -> tuple[list[list[Element]], list[Element]] | None:
-        """Project on the motions that the joints allow; None where a reaction does not drop out."""
+    def along_motions(self) -> list[list[Element]]:
+        """Balances projected on the motion that each speed stands for: rows ``[R | M | h]``, one per speed."""
         n, k = len(self.state.speeds), len(self.unknowns)
-        zero = self.state.ring.zero
-        mass, force = [], []
+        found = []
         for j in range(n):
-            total = [zero] * (k + n + 1)
+            total = [self.state.ring.zero] * (k + n + 1)
             for balance, row in zip(self.balances, self.rows, strict=True):
                 weight = balance.motion[j]
                 if not weight.is_zero():
                     total = [a if b.is_zero() else a + weight * b for a, b in zip(total, row, strict=True)]
-            if any(not entry.is_zero() for entry in total[:k]):
-                return None
-            mass.append(total[k : k + n])
-            force.append(-total[-1])
-        return mass, force
+            found.append(total)
+        return found
+
+    def projected(self) -> tuple[list[list[Element]], list[Element]] | None:
+        """Project on the motions that the joints allow; None where a reaction does not drop out."""
+        k, rows = len(self.unknowns), self.along_motions()
+        if any(not entry.is_zero() for row in rows for entry in row[:k]):
+            return None
+        return [row[k:-1] for row in rows], [-row[-1] for row in rows]
 
     def eliminated(self) -> tuple[list[list[Element]], list[Element]]:
         """Eliminate the reactions one by one."""

@@ -19,6 +19,7 @@ from engdyn.algebra.expressions import as_expression
 from engdyn.algebra.readable import expression
 from engdyn.algebra.ring import Element, Ring
 from engdyn.errors import EngdynError
+from engdyn.modeling.constrained import Constrained
 from engdyn.modeling.state import State, check_coordinates
 
 __all__ = ["EquationsOfMotion"]
@@ -43,6 +44,8 @@ class EquationsOfMotion:
         Where the equations come from ("Newton-Euler", "Lagrange", "residuals").
     defaults : mapping
         Prescribed motion → (value, rate, acceleration) expressions that hold where it is not given.
+    constrained : Constrained or None
+        Under velocity constraints, the equations before they were projected: numbers come from them.
     """
 
     coordinates: tuple[sm.Expr, ...]
@@ -54,6 +57,7 @@ class EquationsOfMotion:
     origin: str
     solve_reactions: Callable[[], dict[sm.Symbol, sm.Expr]] | None = None
     defaults: Mapping[sm.Expr, tuple[sm.Expr, sm.Expr, sm.Expr]] = field(default_factory=dict)
+    constrained: Constrained | None = None
 
     @classmethod
     def from_residuals(
@@ -143,7 +147,7 @@ class EquationsOfMotion:
 
     @cached_property
     def reactions(self) -> dict[sm.Symbol, sm.Expr]:
-        """Each unknown reaction in terms of q, q̇ and the accelerations (empty after Lagrange)."""
+        """Each unknown reaction in terms of q, q̇ and the accelerations (of the constraints after Lagrange)."""
         return self.solve_reactions() if self.solve_reactions else {}
 
     @cached_property
@@ -186,7 +190,9 @@ class EquationsOfMotion:
     def compiled(self, target: str) -> Callable[..., tuple]:
         """Compiled M, f and q̇ (flat, in that order) of the scalar :attr:`arguments`."""
         cache = self.__dict__.setdefault("_compiled", {})
-        if target not in cache:
+        if target not in cache and self.constrained is not None and target in ("math", "numpy"):
+            cache[target] = self.constrained.compiled(self.arguments, target)
+        if cache.get(target) is None:
             elements = [*(e for row in self.mass for e in row), *self.force, *self.rates]
             cache[target] = compile_elements(elements, self.arguments, target)
         return cache[target]
@@ -242,7 +248,8 @@ class EquationsOfMotion:
 
     def __repr__(self) -> str:
         names = ", ".join(q.func.__name__ for q in self.coordinates)
-        return f"EquationsOfMotion({names}; {len(self.speeds)} equations, from {self.origin})"
+        count = len(self.speeds)
+        return f"EquationsOfMotion({names}; {count} equation{'s' * (count != 1)}, from {self.origin})"
 
     def _repr_latex_(self) -> str:
         from sympy.physics.vector.printing import vlatex

@@ -7,6 +7,7 @@ J. W. Strutt, *Proc. London Math. Soc.* s1-4 (1873).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import sympy as sm
@@ -16,6 +17,7 @@ from engdyn.algebra.expressions import as_expression
 from engdyn.algebra.readable import to_sympy, tree
 from engdyn.algebra.ring import Derivation, Element
 from engdyn.errors import EngdynError
+from engdyn.modeling.constrained import Constrained
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.nonholonomic import projected, substitute, with_rates_inside
 from engdyn.modeling.state import State, check_coordinates, dependent_rates
@@ -129,11 +131,13 @@ def lagrange(
     terms = [kinetic, potential, dissipation, *forces.values()]
     state = State(coordinates, terms, independent, rates, substitute=False, moving=[kinetic])
     mass, force = _equations(state, kinetic, potential, dissipation, forces)
-    multipliers = None
+    multipliers = full = None
     if constraints:
+        full = Constrained(coordinates, state.speeds, tuple(map(tuple, mass)), tuple(force), constraints)
         state, mass, force = with_rates_inside(state, mass, force)
         mass, force, multipliers = projected(state, mass, force, constraints)
     eom = EquationsOfMotion.from_elements(state, mass, force, "Lagrange", multipliers)
+    eom = eom if full is None else replace(eom, constrained=full)
     if not steps:
         return eom
     from engdyn.modeling.lagrange_steps import lagrange_steps

@@ -8,6 +8,7 @@ motum corporum rigidorum determinandi* (1775).
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import sympy as sm
@@ -17,6 +18,7 @@ from sympy.physics.vector import ReferenceFrame, dynamicsymbols
 from engdyn.algebra.expressions import as_expression
 from engdyn.errors import EngdynError
 from engdyn.modeling.balances import Balance, Balances
+from engdyn.modeling.constrained_balances import without_constraint_reactions
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.free_body import FreeBody, arm_of, load_vector
 from engdyn.modeling.motion import (
@@ -85,18 +87,26 @@ def newton_euler(
         raise EngdynError(f"frame is {frame!r}: give the inertial ReferenceFrame")
     free_bodies = [free_bodies] if isinstance(free_bodies, FreeBody) else list(free_bodies)
     unknowns = _check_unknowns(free_bodies, unknowns)
+
+    def balances(speeds: Sequence[sm.Expr] | None, rates: Mapping[sm.Expr, sm.Expr], bound: int) -> Balances:
+        state, motion, paths = _prepare(free_bodies, coordinates, frame, unknowns, speeds, rates)
+        rows = [row for body in free_bodies for row in _balances(body, motion, paths)]
+        found = Balances(state, rows, unknowns)
+        found.check(lambda: _other_symbols(free_bodies, unknowns), bound)
+        return found
+
     if constraints:
         if kinematics:
             raise EngdynError("give either constraints or kinematics: each determines the rates by itself")
         speeds, rates = dependent_rates(coordinates, tuple(constraints), speeds)
+        eom = without_constraint_reactions(balances(None, {}, len(constraints)), speeds, rates, constraints)
+        if eom is not None:
+            return replace(eom, solve_reactions=lambda: balances(speeds, rates, 0).reactions())
     else:
         speeds, rates = _check_kinematics(coordinates, speeds, kinematics)
-    state, motion, paths = _prepare(free_bodies, coordinates, frame, unknowns, speeds, rates)
-    rows = [row for body in free_bodies for row in _balances(body, motion, paths)]
-    balances = Balances(state, rows, unknowns)
-    balances.check(lambda: _other_symbols(free_bodies, unknowns))
-    mass, force = balances.projected() or balances.eliminated()
-    return EquationsOfMotion.from_elements(state, mass, force, "Newton-Euler", balances.reactions)
+    written = balances(speeds, rates, 0)
+    mass, force = written.projected() or written.eliminated()
+    return EquationsOfMotion.from_elements(written.state, mass, force, "Newton-Euler", written.reactions)
 
 
 def _check_unknowns(
