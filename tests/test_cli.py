@@ -25,7 +25,7 @@ def test_version(capsys):
 def test_help_names_every_command(capsys):
     code, out, _ = run(capsys, "--help")
     assert code == 0
-    assert all(f" {command} " in out for command in ("lab", "systems", "analyze"))
+    assert all(f" {command} " in out for command in ("lab", "systems", "analyze", "matrix"))
 
 
 def test_importing_the_command_loads_nothing_heavy():

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import sympy as sm
+from scipy.spatial.transform import Rotation
 from sympy.physics.vector import ReferenceFrame, dynamicsymbols
 
 from engdyn.analysis.linear import linearize
@@ -27,7 +28,7 @@ from engdyn.system import System
 
 __all__ = ["CHECKS", "CheckFailure"]
 
-STEP = 2e-4
+STEP = 3e-5
 """Of finite differences in time [s]; their error is of second order."""
 
 CORRUPTION = 1.01
@@ -53,14 +54,14 @@ def kinematics(system: System, corrupt: bool) -> str:
     Corrupted, the rates of the coordinates are one percent too large.
     """
     ground, bodies, moments = system.frame, system.free_bodies(), _moments(system)
-    before, now, after = moments
+    now = moments[1]
     if corrupt:
         now = {name: x * (CORRUPTION if name.endswith("_d") else 1.0) for name, x in now.items()}
     for body in bodies:
         path = path_of_point(body.center, ground)
         chain = KinematicChain(ground, origin=path.start)
         chain.add(body.body)
-        places = [_place(path, ground, at) for at in moments]
+        places = _places(path, ground, moments)
         velocity = components(chain.velocity(body.center), ground, now)
         _compare(velocity, (places[2] - places[0]) / (2 * STEP), 1e-5, f"the velocity of {body.name}")
         acceleration = components(chain.acceleration(body.center), ground, now)
@@ -87,13 +88,15 @@ def _moments(system: System) -> list[dict[str, float]]:
     return [system.values() | rest | motion_at(paths, x) | {t.name: x} for x in times]
 
 
-def _place(path: VectorPath, ground: ReferenceFrame, at: Mapping[str, float]) -> np.ndarray:
-    given = path.start._vel_dict[ground]
-    if given != 0:
-        raise CheckFailure(
-            f"the motion of {path.start} is given by its velocity: place it from a fixed point"
-        )
-    return np.sum([np.zeros(3), *(components(step, ground, at) for step in path.steps)], axis=0)
+def _places(path: VectorPath, ground: ReferenceFrame, moments: list[dict[str, float]]) -> list[np.ndarray]:
+    """Where a point is at three instants, counted from where its path starts at the second.
+
+    A start with a given velocity (a car on a road) travels as the trapezoidal rule says.
+    """
+    given = [components(path.start._vel_dict[ground], ground, at) for at in moments]
+    travel = [-STEP * (given[0] + given[1]) / 2, np.zeros(3), STEP * (given[1] + given[2]) / 2]
+    steps = [[components(step, ground, at) for step in path.steps] for at in moments]
+    return [np.sum([way, *vectors], axis=0) for way, vectors in zip(travel, steps, strict=True)]
 
 
 def _compare_turning(
@@ -103,17 +106,14 @@ def _compare_turning(
     now: Mapping[str, float],
     name: str,
 ) -> None:
-    """ω and α of a frame against its rotation matrices R: the vector of Ṙ Rᵀ, and its change."""
+    """ω and α of a frame against its rotations from one instant to the next, as rotation vectors."""
     ground = chain.ground
-    before, middle, after = (rotation_matrix(frame, ground, at) for at in moments)
-    spin = (after - before) / (2 * STEP) @ middle.T
-    turning = (after - 2 * middle + before) / STEP**2 @ middle.T + spin @ spin.T
-    for vector, matrix, what in (
-        (chain.angular_velocity(frame), spin, "velocity"),
-        (chain.angular_acceleration(frame), turning, "acceleration"),
+    before, middle, after = (Rotation.from_matrix(rotation_matrix(frame, ground, at)) for at in moments)
+    first, second = (middle * before.inv()).as_rotvec(), (after * middle.inv()).as_rotvec()
+    for vector, expected, what in (
+        (chain.angular_velocity(frame), (first + second) / (2 * STEP), "velocity"),
+        (chain.angular_acceleration(frame), (second - first) / STEP**2, "acceleration"),
     ):
-        twice = matrix - matrix.T
-        expected = 0.5 * np.array([twice[2, 1], twice[0, 2], twice[1, 0]])
         _compare(components(vector, ground, now), expected, 1e-5, f"the angular {what} of {name}")
 
 
