@@ -69,6 +69,14 @@ def test_chapter_4_runs_and_its_slider_moves_the_picture(lab_page):
     assert lab_page.foreign_hosts == set()
 
 
+@pytest.mark.parametrize("name", ["01_kinematics", "02_newton", "03_lagrange", "B_inertia"])
+def test_part_one_runs_from_top_to_bottom(lab_page, name):
+    lab_page.open(f"notebooks/{name}.ipynb")
+    lab_page.run_all()
+    assert lab_page.errors() == []
+    assert lab_page.foreign_hosts == set()
+
+
 def test_an_unanswered_exercise_opens_and_runs(lab_page):
     name = sorted(path.name for path in (lab_page.lab.root / "exercises").glob("04_*.ipynb"))[0]
     lab_page.open(f"exercises/{name}")
