@@ -104,6 +104,14 @@ def test_a_long_formula_gets_a_letter_and_is_told(drawn):
     assert f"F_{{1}} is {-formula}" in drawn["words"]
 
 
+def test_sums_begin_with_what_is_counted_positive(drawn):
+    ground, point, r = ReferenceFrame("N"), Point("P"), dynamicsymbols("r")
+    ed.plots.free_body(ed.FreeBody(Particle("P", point, m), [Force(point, -k * (r - l) * ground.x)]))
+    label = next(name for name in drawn if "left" in name)
+    assert label == "$k\\,\\left(r - l\\right)$"
+    assert along(drawn[label]) == pytest.approx((-1, 0))
+
+
 def test_in_space_couples_are_arrows_with_two_heads(drawn):
     ground = ReferenceFrame("N")
     center = Point("G")

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 from sympy.physics.mechanics import Force
 from sympy.physics.vector import ReferenceFrame, Vector, dynamicsymbols
-from sympy.physics.vector.printing import vlatex
+from sympy.physics.vector.printing import VectorLatexPrinter
 
 from engdyn import shapes as sh
 from engdyn.errors import EngdynError
@@ -179,7 +179,14 @@ def _text(measure: sm.Expr) -> str:
     g = next((s for s in measure.free_symbols if s.name == "g"), None) if measure.is_Mul else None
     if g is not None and not (rest := measure / g).has(g) and rest.is_number is False:
         return rf"{_text(rest)}\,g"
-    return vlatex(measure, mul_symbol=r"\,", fold_short_frac=True)
+    return _Printer({"mul_symbol": r"\,", "fold_short_frac": True}).doprint(measure)
+
+
+class _Printer(VectorLatexPrinter):
+    """Sums begin with a term that has no minus sign: r - l_0 and not -l_0 + r."""
+
+    def _as_ordered_terms(self, expr: sm.Expr, order: Any = None) -> list[sm.Expr]:
+        return sorted(super()._as_ordered_terms(expr, order), key=lambda t: t.could_extract_minus_sign())
 
 
 class _Numbers:
