@@ -1,6 +1,7 @@
 """Run every benchmark: ``python -m benchmarks``."""
 
-from benchmarks import derive
+from benchmarks import derive, prove
 
 if __name__ == "__main__":
-    derive.main()
+    derive.main([])
+    prove.main([])

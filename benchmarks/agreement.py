@@ -1,61 +1,43 @@
-"""Before tools are timed on the same work: do their equations of motion agree?"""
+"""Tools that are timed on the same work must give the same accelerations: compared at a random state."""
 
 from __future__ import annotations
 
 import random
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
 import sympy as sm
 from sympy.core.function import AppliedUndef
 from sympy.physics.mechanics import dynamicsymbols
 
-from benchmarks.models import Model, engdyn_equations, kane, lagrangian
+from benchmarks.models import Equations, Model
 
 TOLERANCE = 1e-9
 
 
-def check(make: Callable[[], Model]) -> None:
-    """Raise where the accelerations of the three derivations differ at a random state.
+def check(model: Model, equations: Mapping[str, Equations]) -> None:
+    """Raise where the accelerations that follow from M and f differ at a random state.
 
     Parameters
     ----------
-    make : callable
-        Returns the model anew.
+    model : Model
+    equations : mapping of tool to (mass matrix, forcing)
+        The first one is what the others are compared with.
     """
-    expected = _engdyn(make())
-    for name, tool in (("LagrangesMethod", _lagrange), ("KanesMethod", _kane)):
-        found = tool(make())
-        if np.max(np.abs(found - expected)) > TOLERANCE * (1.0 + np.max(np.abs(expected))):
-            raise AssertionError(f"{make().name}: {name} gives {found}, engdyn {expected}")
+    t, n = dynamicsymbols._t, len(model.coordinates)
+    rates = dict(zip(dynamicsymbols(f"u:{n}"), (q.diff(t) for q in model.coordinates), strict=True))
+    found = {
+        tool: np.linalg.solve(*(_numbers(part.xreplace(rates)) for part in parts))[:, 0]
+        for tool, parts in equations.items()
+    }
+    expected = next(iter(found.values()))
+    for tool, values in found.items():
+        if np.max(np.abs(values - expected)) > TOLERANCE * (1.0 + np.max(np.abs(expected))):
+            raise AssertionError(f"{model.name}: {tool} gives {values}, not {expected}")
 
 
-def _engdyn(model: Model) -> np.ndarray:
-    eom = engdyn_equations(model)[1]
-    return _solved(eom.mass_matrix, eom.forcing, model.coordinates)
-
-
-def _lagrange(model: Model) -> np.ndarray:
-    method = lagrangian(model)
-    return _solved(method.mass_matrix, method.forcing, model.coordinates)
-
-
-def _kane(model: Model) -> np.ndarray:
-    method = kane(model)
-    t = dynamicsymbols._t
-    rates = {u: q.diff(t) for u, q in zip(method.u, model.coordinates, strict=True)}
-    return _solved(method.mass_matrix.subs(rates), method.forcing.subs(rates), model.coordinates)
-
-
-def _solved(mass: sm.Matrix, forcing: sm.Matrix, coordinates: list[Any]) -> np.ndarray:
-    """M⁻¹ f where every symbol, function and rate has a value that its name decides."""
-    found = [
-        np.array(matrix.xreplace(_values(matrix)).evalf().tolist(), dtype=float) for matrix in (mass, forcing)
-    ]
-    return np.linalg.solve(found[0], found[1])[:, 0]
-
-
-def _values(matrix: sm.Matrix) -> dict[sm.Expr, float]:
+def _numbers(matrix: sm.Matrix) -> np.ndarray:
+    """The matrix where every symbol, function and rate has a value that its name decides."""
     atoms = matrix.atoms(sm.Derivative) | matrix.atoms(AppliedUndef) | matrix.free_symbols
-    return {atom: random.Random(str(atom)).uniform(0.5, 1.5) for atom in atoms}
+    values = {atom: random.Random(str(atom)).uniform(0.5, 1.5) for atom in atoms}
+    return np.array(matrix.xreplace(values).evalf().tolist(), dtype=float)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import sympy as sm
 from sympy.physics.mechanics import (
@@ -13,11 +14,15 @@ from sympy.physics.mechanics import (
     Point,
     ReferenceFrame,
     RigidBody,
+    System,
     dynamicsymbols,
     inertia,
 )
 
 import engdyn as ed
+
+#: Mass matrix and forcing vector.
+Equations = tuple[sm.Matrix, sm.Matrix]
 
 
 @dataclass
@@ -110,8 +115,8 @@ def double_pendulum() -> Model:
     return Model("double pendulum", [a, b], N, bodies, [upper, lower], kinetic, potential)
 
 
-def heavy_top() -> Model:
-    """A symmetric top about a fixed point in three angles."""
+def heavy_top(from_body: bool = False) -> Model:
+    """A symmetric top about a fixed point in three angles, its energy by hand or as sympy gives it."""
     a, b, c = dynamicsymbols("a b c")
     m, l, A, C, g = sm.symbols("m l A C g", positive=True)
     reactions = sm.symbols("R_x R_y R_z")
@@ -129,7 +134,34 @@ def heavy_top() -> Model:
     across = b.diff() ** 2 + (a.diff() * sm.sin(b)) ** 2
     along = c.diff() + a.diff() * sm.cos(b)
     kinetic = (A + m * l**2) * across / 2 + C * along**2 / 2
-    return Model("heavy top, 3-D", [a, b, c], N, [free], list(reactions), kinetic, m * g * l * sm.cos(b))
+    if from_body:
+        kinetic = body.kinetic_energy(N)
+    name = "3-D top, T of the body" if from_body else "3-D top, T by hand"
+    return Model(name, [a, b, c], N, [free], list(reactions), kinetic, m * g * l * sm.cos(b))
+
+
+def mass_chain(n: int) -> Model:
+    """n masses on a rail, each tied to the one before by a spring and a damper, the first to a wall."""
+    x = dynamicsymbols(f"x1:{n + 1}")
+    masses, stiffness = (sm.symbols(f"{letter}1:{n + 1}", positive=True) for letter in "mk")
+    c, F = sm.Symbol("c", positive=True), dynamicsymbols("F")
+    N, O = ReferenceFrame("N"), Point("O")
+    O.set_vel(N, 0)
+    stretch = [x[0], *(b - a for a, b in pairwise(x))]
+    tension = [k * s + c * s.diff() for k, s in zip(stiffness, stretch, strict=True)]
+    bodies = []
+    for i, m in enumerate(masses):
+        point = O.locatenew(f"P{i + 1}", x[i] * N.x)
+        ahead = tension[i + 1] if i + 1 < n else F
+        bodies.append(
+            ed.FreeBody(Particle(f"b{i + 1}", point, m), [Force(point, (ahead - tension[i]) * N.x)])
+        )
+    kinetic = sum((m * q.diff() ** 2 for m, q in zip(masses, x, strict=True)), sm.S.Zero) / 2
+    potential = sum((k * s**2 for k, s in zip(stiffness, stretch, strict=True)), sm.S.Zero) / 2
+    dissipation = sum((c * s.diff() ** 2 for s in stretch), sm.S.Zero) / 2
+    return Model(
+        f"{n} masses in a chain", list(x), N, bodies, [], kinetic, potential, dissipation, {x[-1]: F}
+    )
 
 
 def doubled(body: ed.FreeBody) -> tuple[list, list]:
@@ -151,22 +183,34 @@ def kane_input(model: Model) -> tuple[list, list]:
     return bodies, loads
 
 
-def kane(model: Model) -> KanesMethod:
-    """sympy's KanesMethod on the same bodies and loads, equations formed."""
-    t = dynamicsymbols._t
-    speeds = dynamicsymbols(f"u:{len(model.coordinates)}")
-    method = KanesMethod(
-        model.frame,
-        q_ind=model.coordinates,
-        u_ind=list(speeds),
-        kd_eqs=[u - q.diff(t) for u, q in zip(speeds, model.coordinates, strict=True)],
-    )
+def speeds_of(model: Model) -> tuple[list, list]:
+    """Generalized speeds and the kinematic equations u = q̇."""
+    t, speeds = dynamicsymbols._t, list(dynamicsymbols(f"u:{len(model.coordinates)}"))
+    return speeds, [u - q.diff(t) for u, q in zip(speeds, model.coordinates, strict=True)]
+
+
+def kane(model: Model) -> Equations:
+    """sympy's KanesMethod on the same bodies and loads."""
+    speeds, kinematic = speeds_of(model)
+    method = KanesMethod(model.frame, q_ind=model.coordinates, u_ind=speeds, kd_eqs=kinematic)
     method.kanes_equations(*kane_input(model))
-    return method
+    return method.mass_matrix, method.forcing
 
 
-def lagrangian(model: Model) -> LagrangesMethod:
-    """sympy's LagrangesMethod on the same energies, equations formed; the rest as generalized forces."""
+def system(model: Model) -> Equations:
+    """sympy's System on the same bodies and loads."""
+    speeds, kinematic = speeds_of(model)
+    bodies, loads = kane_input(model)
+    whole = System(model.frame)
+    whole.q_ind, whole.u_ind, whole.kdes = model.coordinates, speeds, kinematic
+    whole.add_bodies(*bodies)
+    whole.add_loads(*loads)
+    whole.form_eoms()
+    return whole.mass_matrix, whole.forcing
+
+
+def lagrangian(model: Model) -> Equations:
+    """sympy's LagrangesMethod on the same energies; the rest as generalized forces."""
     t = dynamicsymbols._t
     loads = []
     for i, q in enumerate(model.coordinates):
@@ -179,7 +223,7 @@ def lagrangian(model: Model) -> LagrangesMethod:
         model.kinetic - model.potential, model.coordinates, forcelist=loads, frame=model.frame
     )
     method.form_lagranges_equations()
-    return method
+    return method.mass_matrix, method.forcing
 
 
 def engdyn_equations(model: Model) -> tuple[ed.EquationsOfMotion, ed.EquationsOfMotion]:
@@ -190,10 +234,10 @@ def engdyn_equations(model: Model) -> tuple[ed.EquationsOfMotion, ed.EquationsOf
     )
 
 
-def engdyn(model: Model) -> ed.Proof:
+def engdyn(model: Model) -> Equations:
     """Both derivations and the proof that they agree, the result turned into sympy matrices."""
     a, b = engdyn_equations(model)
     proof = ed.prove_equal(a, b)
-    assert proof
-    assert b.mass_matrix.shape[0] == b.forcing.shape[0]
-    return proof
+    if not proof:
+        raise AssertionError(f"{model.name}: {proof!r}")
+    return b.mass_matrix, b.forcing

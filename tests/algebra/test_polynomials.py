@@ -101,3 +101,22 @@ def test_without_flint_the_rings_of_sympy_are_used(monkeypatch):
     monkeypatch.delenv("ENGDYN_BACKEND", raising=False)
     monkeypatch.setitem(__import__("sys").modules, "flint", None)
     assert module.backend_name() == "sympy"
+
+
+@settings(max_examples=40)
+@given(terms=dictionaries)
+@pytest.mark.parametrize("kind", CLASSES, ids=lambda c: c.__name__)
+def test_sparse_terms_and_values(kind, terms):
+    ps = kind(3)
+    p = ps.from_terms(terms)
+    sparse = ps.sparse(p)
+    assert ps.from_sparse(sparse) == p
+    assert all(e > 0 for exponents, _ in sparse for _, e in exponents)
+    assert value((tuple(dict(pairs).get(i, 0) for i in range(3)), c) for pairs, c in sparse) == value(
+        ps.terms(p)
+    )
+    point = [ps.rational(x.numerator, x.denominator) for x in POINT]
+    found = ps.value(p, point)
+    assert (
+        Fraction(int(found.numerator), int(found.denominator)) == value(terms.items()) if terms else not found
+    )

@@ -304,3 +304,25 @@ def test_the_oracle_knows_what_it_computes():
     with mpmath.workdps(40):
         point = sample(1)
         assert abs(values(sin(x) ** 2 + cos(x) ** 2, point)[0] - 1) < mpmath.mpf(10) ** -38
+
+
+def test_partial_derivatives_follow_a_change_of_definitions():
+    """Derivations are remembered; what is defined later must not be missed."""
+    ring = Converter([sm.cos(x) + y]).ring
+    key = ("function", x, 0)
+    cosine = ring.generator(("cosine", x, 1))
+    assert ring.partial(key)(cosine).equals(-ring.generator(("sine", x, 1)))
+    assert ring.partial(key) is ring.partial(key)
+    ring.set_angle(x, 1, ring.generator(("function", y, 0)))
+    assert ring.partial(key)(cosine).is_zero()
+    assert ring.partial(("function", y, 0))(cosine).equals(-ring.generator(("sine", x, 1)))
+
+
+def test_products_of_elements_that_share_a_sine_are_reduced():
+    ring = Converter([sm.sin(x) * sm.sin(y) * sm.sqrt(a + sm.sin(x))]).ring
+    sine, other = ring.generator(("sine", x, 1)), ring.generator(("sine", y, 1))
+    cosine = ring.generator(("cosine", x, 1))
+    assert (sine * other * sine).equals(other * (1 - cosine * cosine))
+    root = ring.generator(next(key for key in ring.keys if key[0] == "root"))
+    product = root * sine * (root * other)  # √ squared brings a second sine
+    assert max(ring.polynomials.degrees(product.numerator)[ring.index["sine", q, 1]] for q in (x, y)) == 1

@@ -7,7 +7,7 @@ from hypothesis import given, reject, settings
 from hypothesis import strategies as st
 from sympy.physics.mechanics import dynamicsymbols
 
-from algebra.expressions import a, agree, elements, functions, k, x, y
+from algebra.expressions import a, agree, b, elements, functions, k, x, y
 from engdyn.algebra.conversion import Converter
 from engdyn.algebra.readable import to_sympy, tree
 from engdyn.algebra.union import common_ring
@@ -89,3 +89,48 @@ def test_nothing_is_invented_for_undefined_functions():
     assert same(f(x + x), f(2 * x))
     assert not same(f(x), f(y))
     assert not same(f(x), sm.Function("g")(x))
+
+
+def test_rings_that_agree_but_for_unknowns_need_no_translation():
+    """The ring of Newton–Euler holds that of Lagrange, reactions last: elements are carried as they stand."""
+    reaction = sm.Symbol("R")
+    shared = a * sm.cos(x) * sm.sin(y) + b * x**2
+    whole = Converter([shared + reaction * sm.cos(x)], last=[("symbol", reaction)], room=2)
+    part = Converter([shared], room=3)
+    for rings in ([whole.ring, part.ring], [part.ring, whole.ring]):
+        ring, maps = common_ring(rings)
+        assert ring is whole.ring
+        carried = maps[rings.index(part.ring)](part.convert(shared))
+        assert carried.numerator == part.convert(shared).numerator
+        assert carried.equals(whole.convert(shared))
+        assert carried.ring is ring
+
+
+def test_rings_of_one_size_with_other_generators_are_translated():
+    """Polynomials of equal size would fit together, but their generators mean other things."""
+    left, right = Converter([a * sm.cos(x)]), Converter([b * sm.cos(y)])
+    assert left.ring.polynomials is right.ring.polynomials
+    ring, (p, q) = common_ring([left.ring, right.ring])
+    one, two = p(left.convert(a * sm.cos(x))), q(right.convert(b * sm.cos(y)))
+    assert not one.equals(two)
+    assert ring not in (left.ring, right.ring)
+
+
+def test_a_ring_that_holds_another_in_other_order_becomes_the_common_one():
+    whole, part = Converter([a * b * sm.cos(x) * sm.sin(y) + k]), Converter([k * b * sm.sin(y) + y])
+    ring, (_, into) = common_ring([whole.ring, part.ring])
+    assert ring is not part.ring
+    assert agree(to_sympy(tree(into(part.convert(k * b * sm.sin(y) + y)))), k * b * sm.sin(y) + y, digits=25)
+
+
+def test_the_same_root_key_with_another_meaning_is_not_taken_over():
+    """Equal keys are not enough: what a root stands for must agree as well."""
+    root = sm.sqrt(x**2 + a)
+    left, right = Converter([root * b]), Converter([root * b])
+    ring, (p, q) = common_ring([left.ring, right.ring])
+    assert ring in (left.ring, right.ring)
+    assert p(left.convert(root * b)).equals(q(right.convert(root * b)))
+    index = right.ring.index["root", x**2 + a]
+    right.ring.definitions[index].arguments = (right.convert(x**2 + 2 * a),)
+    ring, _ = common_ring([left.ring, right.ring])
+    assert ring not in (left.ring, right.ring)

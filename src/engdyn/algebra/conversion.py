@@ -7,7 +7,7 @@ Floats enter as the rational of their shortest decimal (0.1 is 1/10).
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 import sympy as sm
@@ -43,6 +43,14 @@ class Converter:
         Keys of further independent generators (accelerations, say).
     substitutions : dict, optional
         Key of a time derivative → the expression that stands in its place (kinematics q̇ = G u + g).
+    moving : iterable of sympy.Expr
+        Those of the expressions that will be differentiated by time: their dynamicsymbols that are not
+        among `extra` get generators for two further derivatives.
+    last : sequence of tuple
+        Keys that come after all others, reaction unknowns for example: rings that differ in them alone
+        agree in all other generators.
+    room : int
+        Generators to keep in reserve, see :class:`Ring`.
     """
 
     def __init__(
@@ -50,13 +58,17 @@ class Converter:
         expressions: Iterable[sm.Expr],
         extra: Iterable[Key] = (),
         substitutions: dict[Key, sm.Expr] | None = None,
+        moving: Iterable[sm.Expr] = (),
+        last: Sequence[Key] = (),
+        room: int = 0,
     ):
         self._substitutions = substitutions or {}
         scan = Scan(self._substitutions)
-        for key in extra:
-            scan.plain.setdefault(key)
+        first = list(dict.fromkeys(extra))
+        scan.read(e if isinstance(e, sm.Basic) else as_expression(e) for e in moving)
+        first += scan.prescribed({key[1] for key in first})
         scan.read(e if isinstance(e, sm.Basic) else as_expression(e) for e in expressions)
-        self.ring = Ring(scan.keys())
+        self.ring = Ring(scan.keys(first, last), room)
         self._divisors = scan.divisors
         self._known: dict[sm.Basic, Element] = {}
         self._dependent: dict[Key, Element] = {}

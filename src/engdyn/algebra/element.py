@@ -14,14 +14,28 @@ __all__ = ["Element", "add_angles", "without_common_roots"]
 
 
 class Element:
-    """An element of a ring: numerator over denominator (None for 1), both polynomials."""
+    """An element of a ring: numerator over denominator (None for 1), both polynomials.
 
-    __slots__ = ("denominator", "numerator", "ring")
+    `bounded` is a bit mask: the generators with a relation that the numerator may contain.  Products
+    of elements that have none of them in common are in normal form already.
+    """
 
-    def __init__(self, ring: Ring, numerator: Any, denominator: Any = None):
+    __slots__ = ("_bounded", "_generators", "denominator", "node", "numerator", "ring")
+
+    def __init__(self, ring: Ring, numerator: Any, denominator: Any = None, bounded: int | None = None):
         self.ring = ring
         self.numerator = numerator
         self.denominator = denominator
+        self.node: Any = None  # the readable tree, once it has been asked for
+        self._bounded = bounded
+        self._generators: frozenset[int] | None = None
+
+    @property
+    def bounded(self) -> int:
+        """Which generators with a relation the numerator may contain, as a bit mask."""
+        if self._bounded is None:
+            self._bounded = self.ring.bounded_among(self.generators())
+        return self._bounded
 
     @staticmethod
     def quotient(ring: Ring, numerator: Any, denominator: Any) -> Element:
@@ -48,10 +62,17 @@ class Element:
         return other if isinstance(other, Element) else self.ring.constant(other)
 
     def __add__(self, other: Any) -> Element:
-        other = self._coerce(other)
+        if not isinstance(other, Element):
+            other = self.ring.constant(other)
         a, b = self.denominator, other.denominator
         if a is None and b is None:
-            return Element(self.ring, self.numerator + other.numerator)
+            if not len(self.numerator):
+                return other
+            if not len(other.numerator):
+                return self
+            return Element(
+                self.ring, self.numerator + other.numerator, None, _union(self._bounded, other._bounded)
+            )
         if a is not None and b is not None and a == b:
             return Element.quotient(self.ring, self.numerator + other.numerator, a)
         one = self.ring.polynomials.one
@@ -61,24 +82,43 @@ class Element:
     __radd__ = __add__
 
     def __neg__(self) -> Element:
-        return Element(self.ring, -self.numerator, self.denominator)
+        return Element(self.ring, -self.numerator, self.denominator, self._bounded)
 
     def __sub__(self, other: Any) -> Element:
-        return self + (-self._coerce(other))
+        other = self._coerce(other)
+        if self.denominator is None and other.denominator is None:
+            if not len(other.numerator):
+                return self
+            return Element(
+                self.ring, self.numerator - other.numerator, None, _union(self._bounded, other._bounded)
+            )
+        return self + (-other)
 
     def __rsub__(self, other: Any) -> Element:
         return self._coerce(other) + (-self)
 
     def __mul__(self, other: Any) -> Element:
-        other = self._coerce(other)
+        if not isinstance(other, Element):
+            other = self.ring.constant(other)
         a, b = self.denominator, other.denominator
-        if len(self.numerator) * len(other.numerator) > self.ring.polynomials.largest_product:
+        terms = len(self.numerator) * len(other.numerator)
+        if terms < 2:
+            if not terms:
+                return self.ring.zero
+            if other is self.ring.one:
+                return self
+            if self is self.ring.one:
+                return other
+        if terms > self.ring.polynomials.largest_product:
             raise OutsideRingError(
                 "an expression has too many terms to be expanded exactly: write it in shorter parts"
             )
         product = self.numerator * other.numerator
         if a is None and b is None:
-            return Element(self.ring, self.ring.reduce(product))
+            common = self.bounded & other.bounded
+            if not common:
+                return Element(self.ring, product, None, self._bounded | other._bounded)
+            return Element(self.ring, self.ring.reduce(product, common))
         one = self.ring.polynomials.one
         return Element.quotient(
             self.ring, product, (a if a is not None else one) * (b if b is not None else one)
@@ -117,6 +157,8 @@ class Element:
 
     def equals(self, other: Element) -> bool:
         """Whether both elements (of one ring) are equal identically."""
+        if self.denominator is None and other.denominator is None:
+            return self.numerator == other.numerator
         return (self - other).is_zero()
 
     def as_rational(self) -> Fraction | None:
@@ -134,13 +176,19 @@ class Element:
             return Element(self.ring, above)
         return Element.quotient(self.ring, above, ps.specialize(self.denominator, values))
 
-    def generators(self) -> set[int]:
+    def generators(self) -> frozenset[int]:
         """Indices of the generators that occur."""
-        ps = self.ring.polynomials
-        found = {i for i, d in enumerate(ps.degrees(self.numerator)) if d > 0}
-        if self.denominator is not None:
-            found |= {i for i, d in enumerate(ps.degrees(self.denominator)) if d > 0}
-        return found
+        if self._generators is None:
+            ps = self.ring.polynomials
+            found = [i for i, d in enumerate(ps.degrees(self.numerator)) if d > 0]
+            if self.denominator is not None:
+                found += [i for i, d in enumerate(ps.degrees(self.denominator)) if d > 0]
+            self._generators = frozenset(found)
+        return self._generators
+
+
+def _union(a: int | None, b: int | None) -> int | None:
+    return None if a is None or b is None else a | b
 
 
 def add_angles(a: tuple[Element, Element], b: tuple[Element, Element]) -> tuple[Element, Element]:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
-from random import Random
+from typing import Any
 
 from engdyn.algebra.element import Element, without_common_roots
 from engdyn.algebra.ring import Ring
@@ -181,21 +180,26 @@ def _full_rank_somewhere(matrix: Sequence[Row]) -> bool:
     if any(entry is None for row in rows for entry in row):
         return False
     for column in range(len(rows[0])):
-        pivot = next((row for row in rows if row[column]), None)
-        if pivot is None:
+        at = next((at for at, row in enumerate(rows) if row[column]), None)
+        if at is None:
             return False
-        rows.remove(pivot)
-        ratios = [row[column] / pivot[column] for row in rows]
-        rows = [
-            [a - f * b for a, b in zip(row, pivot, strict=True)] for row, f in zip(rows, ratios, strict=True)
-        ]
+        pivot = rows.pop(at)
+        rows = [_without(row, pivot, column) for row in rows]
     return True
 
 
-def _rational_point(ring: Ring) -> list[Fraction]:
+def _without(row: list[Any], pivot: list[Any], column: int) -> list[Any]:
+    """A row of numbers less the multiple of `pivot` that clears a column."""
+    if not row[column]:
+        return row
+    factor = row[column] / pivot[column]
+    return [a - factor * b if b else a for a, b in zip(row, pivot, strict=True)]
+
+
+def _rational_point(ring: Ring) -> list[Any]:
     """Values of all generators that respect sin² + cos² = 1: rational points of the circle."""
-    source = Random(1843)
-    point = [Fraction(source.randint(1, 97), source.randint(1, 97)) for _ in ring.keys]
+    rational = ring.polynomials.rational
+    point = [rational(2 + 61 * i % 97) for i in range(len(ring.keys))]
     for i, key in enumerate(ring.keys):
         if key[0] == "sine":
             half = point[i]
@@ -204,18 +208,13 @@ def _rational_point(ring: Ring) -> list[Fraction]:
     return point
 
 
-def _value(element: Element, point: Sequence[Fraction]) -> Fraction | None:
+def _value(element: Element, point: Sequence[Any]) -> Any | None:
     """Value of an element at a rational point, None where its denominator vanishes."""
-    parts = [element.numerator] if element.denominator is None else [element.numerator, element.denominator]
-    values = []
-    for p in parts:
-        total = Fraction(0)
-        for exponents, coefficient in element.ring.polynomials.terms(p):
-            for i, e in enumerate(exponents):
-                if e:
-                    coefficient *= point[i] ** e
-            total += coefficient
-        values.append(total)
-    if len(values) == 1:
-        return values[0]
-    return values[0] / values[1] if values[1] else None
+    value = element.ring.polynomials.value
+    if element.is_zero():
+        return element.ring.polynomials.rational(0)
+    above = value(element.numerator, point)
+    if element.denominator is None:
+        return above
+    below = value(element.denominator, point)
+    return above / below if below else None

@@ -11,13 +11,16 @@ that differs between them is a method of :class:`FlintPolynomials` or :class:`Sy
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 __all__ = ["FlintPolynomials", "SympyPolynomials", "backend_name", "polynomials"]
 
 Polynomial = Any
 Exponents = tuple[int, ...]
+Sparse = tuple[tuple[int, int], ...]
 
 
 def backend_name() -> str:
@@ -32,9 +35,26 @@ def backend_name() -> str:
     return "flint"
 
 
+def _dense(terms: Iterable[tuple[Sparse, int | Fraction]], count: int) -> dict[Exponents, int | Fraction]:
+    """Terms with the exponents of all generators."""
+    found = {}
+    for pairs, coefficient in terms:
+        exponents = [0] * count
+        for i, e in pairs:
+            exponents[i] = e
+        found[tuple(exponents)] = coefficient
+    return found
+
+
 def polynomials(count: int) -> FlintPolynomials | SympyPolynomials:
     """Polynomials in `count` generators, ordered lexicographically (the first leads)."""
-    return FlintPolynomials(count) if backend_name() == "flint" else SympyPolynomials(count)
+    return _of_size(backend_name(), max(count, 1))
+
+
+@lru_cache(maxsize=64)
+def _of_size(backend: str, count: int) -> FlintPolynomials | SympyPolynomials:
+    """One set of polynomials for all rings of one size."""
+    return FlintPolynomials(count) if backend == "flint" else SympyPolynomials(count)
 
 
 class FlintPolynomials:
@@ -47,15 +67,15 @@ class FlintPolynomials:
         import flint
 
         self._flint = flint
-        self._context = flint.fmpq_mpoly_ctx.get(("g", max(count, 1)), flint.Ordering.lex)
+        self._context = flint.fmpq_mpoly_ctx.get(("g", count), flint.Ordering.lex)
         self.gens: tuple[Polynomial, ...] = tuple(self._context.gens())
+        self.rational = flint.fmpq  #: numbers of the backend, faster than Fractions
         self.zero = self._context.constant(0)
         self.one = self._context.constant(1)
 
     def constant(self, value: Fraction | int) -> Polynomial:
         """The constant polynomial `value`."""
-        value = Fraction(value)
-        return self._context.constant(self._flint.fmpq(value.numerator, value.denominator))
+        return self._context.constant(self.rational(value.numerator, value.denominator))
 
     def from_terms(self, terms: dict[Exponents, Fraction]) -> Polynomial:
         """The sum of the given terms: exponents of all generators → coefficient."""
@@ -68,6 +88,20 @@ class FlintPolynomials:
             (tuple(map(int, e)), Fraction(int(c.p), int(c.q)))
             for e, c in zip(p.monoms(), p.coeffs(), strict=True)
         ]
+
+    def sparse(self, p: Polynomial) -> list[tuple[Sparse, int | Fraction]]:
+        """Every term as (index, exponent) pairs of the generators in it and its coefficient."""
+        return [
+            (
+                tuple([(i, int(e)) for i, e in enumerate(exponents) if e]),
+                int(c.p) if c.q == 1 else Fraction(int(c.p), int(c.q)),
+            )
+            for exponents, c in zip(p.monoms(), p.coeffs(), strict=True)
+        ]
+
+    def from_sparse(self, terms: Iterable[tuple[Sparse, int | Fraction]]) -> Polynomial:
+        """The sum of terms that are given as (index, exponent) pairs and coefficient."""
+        return self.from_terms(_dense(terms, len(self.gens)))
 
     def is_zero(self, p: Polynomial) -> bool:
         """Whether `p` is the zero polynomial."""
@@ -114,6 +148,10 @@ class FlintPolynomials:
         images = [self.constant(values[i]) if i in values else g for i, g in enumerate(self.gens)]
         return p.compose(*images, ctx=self._context)
 
+    def value(self, p: Polynomial, point: Sequence[Any]) -> Any:
+        """The value of `p` where the generators have the given values, all of them ``rational``."""
+        return p(*point)
+
     def transfer(self, p: Polynomial, target: FlintPolynomials, mapping: list[int]) -> Polynomial:
         """`p` written in the generators of `target`; generator i becomes generator ``mapping[i]``."""
         # compose, not project_to_context: that one ignores the mapping between rings of equal size
@@ -129,8 +167,8 @@ class SympyPolynomials:
         from sympy import QQ, lex
         from sympy.polys.rings import ring
 
-        self._qq = QQ
-        self._ring, *gens = ring([f"g{i}" for i in range(max(count, 1))], QQ, lex)
+        self._qq = self.rational = QQ  #: numbers of the backend
+        self._ring, *gens = ring([f"g{i}" for i in range(count)], QQ, lex)
         self.gens: tuple[Polynomial, ...] = tuple(gens)
         self.zero = self._ring.zero
         self.one = self._ring.one
@@ -150,6 +188,20 @@ class SympyPolynomials:
     def terms(self, p: Polynomial) -> list[tuple[Exponents, Fraction]]:
         """Exponents and coefficient of every term."""
         return [(tuple(e), Fraction(int(c.numerator), int(c.denominator))) for e, c in p.terms()]
+
+    def sparse(self, p: Polynomial) -> list[tuple[Sparse, int | Fraction]]:
+        """Every term as (index, exponent) pairs of the generators in it and its coefficient."""
+        return [
+            (
+                tuple([(i, e) for i, e in enumerate(exponents) if e]),
+                int(c.numerator) if c.denominator == 1 else Fraction(int(c.numerator), int(c.denominator)),
+            )
+            for exponents, c in p.terms()
+        ]
+
+    def from_sparse(self, terms: Iterable[tuple[Sparse, int | Fraction]]) -> Polynomial:
+        """The sum of terms that are given as (index, exponent) pairs and coefficient."""
+        return self.from_terms(_dense(terms, len(self.gens)))
 
     def is_zero(self, p: Polynomial) -> bool:
         """Whether `p` is the zero polynomial."""
@@ -192,6 +244,16 @@ class SympyPolynomials:
     def specialize(self, p: Polynomial, values: dict[int, Fraction]) -> Polynomial:
         """`p` with numbers in place of some generators."""
         return p.compose([(self.gens[i], self.constant(value)) for i, value in values.items()])
+
+    def value(self, p: Polynomial, point: Sequence[Any]) -> Any:
+        """The value of `p` where the generators have the given values, all of them ``rational``."""
+        total = self._qq(0)
+        for exponents, coefficient in p.terms():
+            for e, x in zip(exponents, point, strict=True):
+                if e:
+                    coefficient = coefficient * x**e
+            total = total + coefficient
+        return total
 
     def transfer(self, p: Polynomial, target: SympyPolynomials, mapping: list[int]) -> Polynomial:
         """`p` written in the generators of `target`; generator i becomes generator ``mapping[i]``."""

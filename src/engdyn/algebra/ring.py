@@ -26,6 +26,11 @@ __all__ = ["Definition", "Derivation", "Element", "Ring"]
 
 Key = tuple[Any, ...]
 
+#: Kinds of generators that may have a relation which bounds their powers.
+BOUNDED = frozenset(("sine", "root", "denominator", "magnitude"))
+#: From this many generators on it is worth while to ask first which of them occur.
+MANY = 4
+
 
 @dataclass
 class Definition:
@@ -64,36 +69,56 @@ class Ring:
         One key per generator; later ones are eliminated last, so that sines, roots and calls come
         first.  Keys name what the generator is: ``("symbol", m)``, ``("function", q, 1)`` for the
         first time derivative of q, ``("sine", angle, divisor)``, ``("root", radicand)`` and so on.
+    room : int
+        Generators to keep in reserve: polynomials of rings of one size need no translation.
     """
 
-    def __init__(self, keys: Iterable[Key]):
-        self.keys = tuple(keys)
+    def __init__(self, keys: Iterable[Key], room: int = 0):
+        self.named = tuple(keys)
+        self.keys = (*self.named, *(("reserve", i) for i in range(room)))
         self.index = {key: i for i, key in enumerate(self.keys)}
         self.polynomials = polynomials(len(self.keys))
         self.definitions: dict[int, Definition] = {}
         self.squares: dict[int, Any] = {}
+        self._moduli: dict[int, Any] = {}
+        self._only_sines = True
+        self._partials: dict[Key, Derivation] = {}
+        self._needs: dict[int, frozenset[int]] | None = None
+        #: What readable formulas have in common: trigonometric sums, and expressions of their parts.
+        self.remembered: dict[Any, Any] = {}
+        self.expressions: dict[Any, Any] = {}
         self._multiples: dict[tuple[Key, int], tuple[Element, Element]] = {}
-        self.zero = Element(self, self.polynomials.zero)
-        self.one = Element(self, self.polynomials.one)
+        self.zero = Element(self, self.polynomials.zero, None, 0)
+        self.one = Element(self, self.polynomials.one, None, 0)
 
     def generator(self, key: Key) -> Element:
         """The generator of that key (KeyError where there is none)."""
-        return Element(self, self.polynomials.gens[self.index[key]])
+        index = self.index[key]
+        return Element(self, self.polynomials.gens[index], None, 1 << index if key[0] in BOUNDED else 0)
+
+    def bounded_among(self, generators: Iterable[int]) -> int:
+        """Bit mask of those of the generators that may have a relation."""
+        return sum([1 << i for i in generators if self.keys[i][0] in BOUNDED])
 
     def constant(self, value: Fraction | int) -> Element:
         """A rational number as an element."""
-        return Element(self, self.polynomials.constant(value))
+        if value == 1 or value == 0:
+            return self.one if value else self.zero
+        return Element(self, self.polynomials.constant(value), None, 0)
 
     def define(self, index: int, definition: Definition) -> None:
         """Record what generator `index` stands for and the relation that lowers its powers."""
         self.definitions[index] = definition
+        self._forget()
         ps = self.polynomials
         if definition.kind == "sine":
             cosine = ps.gens[self.index["cosine", *self.keys[index][1:]]]
             self.squares[index] = ps.one - cosine * cosine
         elif definition.square is not None:
             self.squares[index] = definition.square.numerator
+            self._only_sines = False
         self.squares = dict(sorted(self.squares.items()))
+        self._moduli = {i: ps.gens[i] * ps.gens[i] - square for i, square in self.squares.items()}
 
     def define_angle(self, angle: Any, divisor: int) -> None:
         """Make the generators of a base angle a sine and its cosine; :meth:`set_angle` completes them."""
@@ -105,18 +130,30 @@ class Ring:
         """Record the value of a base angle, ``angle/divisor``, as an element."""
         for kind in ("sine", "cosine"):
             self.definitions[self.index[kind, angle, divisor]].arguments = (value,)
+        self._forget()
 
-    def reduce(self, p: Any) -> Any:
-        """Normal form of a polynomial: no generator with a relation beyond the first power."""
+    def reduce(self, p: Any, doubtful: int = -1) -> Any:
+        """Normal form of a polynomial: no generator with a relation beyond the first power.
+
+        `doubtful` is a bit mask of the generators that may occur in higher powers (all by default).
+        """
         ps = self.polynomials
         if not self.squares:
             return p
+        if self._only_sines and doubtful >= 0 and doubtful.bit_count() < MANY:
+            while doubtful:
+                index = doubtful.bit_length() - 1
+                doubtful ^= 1 << index
+                twice = ps.derivative(ps.derivative(p, index), index)  # cheaper than all degrees
+                if len(twice) and index in self._moduli:
+                    p = ps.remainder(p, self._moduli[index])
+            return p
         degrees = ps.degrees(p)
-        for index, square in self.squares.items():
+        for index, modulus in self._moduli.items():
             if degrees[index] > 1:
-                generator = ps.gens[index]
-                p = ps.remainder(p, generator * generator - square)
-                degrees = ps.degrees(p)
+                p = ps.remainder(p, modulus)
+                if not self._only_sines:  # a square may contain roots and sines again
+                    degrees = ps.degrees(p)
         return p
 
     def multiple_angle(self, angle: Any, divisor: int, n: int) -> tuple[Element, Element]:
@@ -151,9 +188,31 @@ class Ring:
                 waiting -= found
         return sorted(i for i in found if i not in self.definitions)
 
+    def dependents(self, sources: Iterable[int]) -> set[int]:
+        """Some generators and all that are defined by them."""
+        found = set(sources)
+        if self._needs is None:
+            self._needs = {
+                i: definition.contains.union(*(a.generators() for a in definition.arguments))
+                for i, definition in self.definitions.items()
+            }
+        size = -1
+        while size < len(found):
+            size = len(found)
+            found.update([i for i, inner in self._needs.items() if not inner.isdisjoint(found)])
+        return found
+
+    def _forget(self) -> None:
+        """Drop what was concluded from the definitions: one of them changes."""
+        self._partials.clear()
+        self._needs = None
+
     def partial(self, key: Key) -> Derivation:
         """The partial derivative with respect to one independent generator."""
-        return Derivation(self, {self.index[key]: self.one} if key in self.index else {})
+        if key not in self._partials:
+            seeds = {self.index[key]: self.one} if key in self.index else {}
+            self._partials[key] = Derivation(self, seeds)
+        return self._partials[key]
 
 
 class Derivation:
@@ -171,24 +230,46 @@ class Derivation:
     def __init__(self, ring: Ring, seeds: dict[int, Element], unknown: Iterable[int] = ()):
         self.ring, self.unknown = ring, frozenset(unknown)
         self._of: dict[int, Element | None] = dict(seeds)
+        self._sources = self.unknown | seeds.keys()
+        self._movable: list[int] | None = None
 
     def __call__(self, element: Element) -> Element:
         """The derivative of an element."""
-        above = self._of_polynomial(element.numerator)
+        moving = self._moving()
+        if len(moving) == 1 and element.denominator is None and self._of.get(moving[0]) is self.ring.one:
+            slope = self.ring.polynomials.derivative(element.numerator, moving[0])
+            return Element(self.ring, slope, None, element._bounded) if len(slope) else self.ring.zero
+        above = self._of_polynomial(element)
         if element.denominator is None:
             return above
-        below = self._of_polynomial(element.denominator)
+        below = self._of_polynomial(Element(self.ring, element.denominator))
         inverse = Element.quotient(self.ring, self.ring.polynomials.one, element.denominator)
         return (above - element * below) * inverse
 
-    def _of_polynomial(self, p: Any) -> Element:
-        ps, total = self.ring.polynomials, self.ring.zero
-        for i, degree in enumerate(ps.degrees(p)):
-            if degree > 0:
-                of_generator = self.of_generator(i)
-                if of_generator is not None:
-                    total = total + Element(self.ring, ps.derivative(p, i)) * of_generator
-        return total
+    def _of_polynomial(self, element: Element) -> Element:
+        """The derivative of an element's numerator."""
+        ring, p, total = self.ring, element.numerator, None
+        moving = self._moving()
+        if len(moving) >= MANY:
+            found = element.generators()
+            moving = [i for i in moving if i in found]
+        derivative = ring.polynomials.derivative
+        for i in moving:
+            slope = derivative(p, i)
+            if not len(slope):
+                continue
+            value = self.of_generator(i)
+            if value is not None:
+                part = Element(ring, slope, None, element.bounded)
+                part = part if value is ring.one else part * value
+                total = part if total is None else total + part
+        return ring.zero if total is None else total
+
+    def _moving(self) -> list[int]:
+        """Generators whose derivative may differ from zero, or is not known."""
+        if self._movable is None:
+            self._movable = sorted(self.ring.dependents(self._sources))
+        return self._movable
 
     def of_generator(self, index: int) -> Element | None:
         """Derivative of one generator, None for zero."""

@@ -92,10 +92,11 @@ def square_content(product: Element) -> tuple[Element, Element]:
     common = Fraction(gcd(*(int(c * below) for _, c in terms)), below)
     rational = Fraction(_square_part(common.numerator * common.denominator), common.denominator)
     half = tuple(
-        min(exponents[i] for exponents, _ in terms) // 2 if key[0] == "symbol" and key[1].is_positive else 0
+        (i, min(exponents[i] for exponents, _ in terms) // 2)
         for i, key in enumerate(ring.keys)
+        if key[0] == "symbol" and key[1].is_positive
     )
-    content = Element(ring, ps.from_terms({half: rational}))
+    content = Element(ring, ps.from_sparse([(half, rational)]))
     return product / (content * content), content
 
 

@@ -6,7 +6,7 @@ what occurs in them, and in :mod:`engdyn.algebra.conversion` to translate them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from math import lcm
 from typing import Any
@@ -26,6 +26,7 @@ __all__ = [
     "half_power",
     "independent_atoms",
     "is_opaque",
+    "key_to_sympy",
 ]
 
 Key = tuple[Any, ...]
@@ -62,6 +63,17 @@ def derivative_key(expr: sm.Expr) -> Key | None:
     return None
 
 
+def key_to_sympy(key: Key) -> sm.Expr:
+    """The sympy expression that an independent generator stands for."""
+    if key[0] != "function":
+        return key[1]
+    _, function, order = key
+    if order == 0:
+        return function
+    # the canonical form is known: letting sympy differentiate takes a hundred times as long
+    return sm.Expr.__new__(sm.Derivative, function, sm.Tuple(function.args[0], sm.Integer(order)))
+
+
 def half_power(expr: sm.Expr) -> bool:
     """Whether an expression is an odd multiple of a square root, such as ``x**(-3/2)``."""
     return isinstance(expr, sm.Pow) and isinstance(expr.exp, sm.Rational) and expr.exp.q == 2
@@ -95,6 +107,8 @@ def angle_terms(angle: sm.Expr) -> list[tuple[sm.Expr, Fraction]]:
         ``2*theta - phi/3`` gives ``[(theta, 2), (phi, -1/3)]``; a number gives base 1.  A factor
         that is not a simple fraction (1.2345) stays with its base: expanding it would be endless.
     """
+    if isinstance(angle, sm.Symbol | AppliedUndef):
+        return [(angle, Fraction(1))]
     if any(a.is_Add or (a.is_Pow and a.base.is_Add) for term in sm.Add.make_args(angle) for a in term.args):
         angle = sm.expand(angle)
     factors: dict[sm.Expr, Fraction] = {}
@@ -143,15 +157,23 @@ class Scan:
         for expression in expressions:
             self._visit(expression)
 
-    def keys(self) -> list[Key]:
-        """All keys in ring order: dependent ones (outer first), sines, cosines, the plain ones."""
-        angles = [(base, divisor) for base, divisor in self.divisors.items()]
+    def keys(self, first: Sequence[Key] = (), last: Sequence[Key] = ()) -> list[Key]:
+        """All keys in ring order: dependent ones (outer first), sines, cosines, the plain ones by name."""
+        angles = sorted(self.divisors.items(), key=lambda angle: _name(angle[0]))
+        given = {*first, *last}
         return [
             *reversed(self.dependent),
             *(("sine", *angle) for angle in angles),
             *(("cosine", *angle) for angle in angles),
-            *self.plain,
+            *first,
+            *sorted((key for key in self.plain if key not in given), key=lambda key: (key[0], _name(key[1]))),
+            *last,
         ]
+
+    def prescribed(self, own: set[sm.Expr]) -> list[Key]:
+        """Keys of all dynamicsymbols met so far that are not `own`, and of their first two derivatives."""
+        functions = {key[1] for key in self.plain if key[0] == "function"} - own
+        return [("function", f, k) for f in sorted(functions, key=_name) for k in (0, 1, 2)]
 
     def _visit(self, expr: sm.Basic) -> None:
         if expr in self._seen:
@@ -233,6 +255,12 @@ class Scan:
         for slope in slopes(expr):
             if slope is not None:
                 self._visit(slope)
+
+
+def _name(expr: sm.Expr) -> str:
+    if isinstance(expr, sm.Symbol):
+        return expr.name
+    return expr.func.__name__ if isinstance(expr, AppliedUndef) else str(expr)
 
 
 def slopes(expr: sm.Expr) -> list[sm.Expr | None]:

@@ -16,11 +16,18 @@ __all__ = ["Transfer", "common_ring"]
 DEPENDENT = ("root", "denominator", "magnitude", "call")
 
 
-def common_ring(rings: Sequence[Ring]) -> tuple[Ring, list[Transfer]]:
+def common_ring(rings: Sequence[Ring]) -> tuple[Ring, list[Transfer | _Renaming]]:
     """A ring with the generators of all `rings`, and the map from each of them into it.
 
     Equal angles, roots and function values become one generator each, whatever they were called.
     """
+    for whole in rings:
+        if all(_holds(whole, ring) or _holds_generators(whole, ring) for ring in rings):
+            angles = {key[1]: key[2] for key in whole.keys if key[0] == "sine"}
+            return whole, [
+                _Renaming(whole) if _holds(whole, ring) else Transfer(ring, list(ring.keys), whole, angles)
+                for ring in rings
+            ]
     divisors: dict = {}
     dependent: dict = {}
     plain: dict = {}
@@ -51,6 +58,48 @@ def common_ring(rings: Sequence[Ring]) -> tuple[Ring, list[Transfer]]:
     return union, transfers
 
 
+def _holds(whole: Ring, part: Ring) -> bool:
+    """Whether elements of `part` are elements of `whole` as they stand: all generators agree."""
+    if whole is part:
+        return True
+    if whole.polynomials is not part.polynomials or whole.keys[: len(part.named)] != part.named:
+        return False
+    return _has_distinct_names(whole) and all(
+        _alike(whole.definitions.get(i), own) for i, own in part.definitions.items()
+    )
+
+
+def _holds_generators(whole: Ring, part: Ring) -> bool:
+    """Whether `whole` has all generators of `part`, none of which is a root, magnitude or call."""
+    known = all(key in whole.index and key[0] not in DEPENDENT for key in part.named)
+    return known and _has_distinct_names(whole)
+
+
+def _has_distinct_names(ring: Ring) -> bool:
+    named = [_name(key) for key in ring.keys if key[0] == "symbol"]
+    return len(set(named)) == len(named)
+
+
+def _alike(a: Definition | None, b: Definition) -> bool:
+    """Whether two definitions of rings with the same generators are one."""
+    if a is None or a.kind != b.kind or len(a.arguments) != len(b.arguments) or a.contains != b.contains:
+        return False
+    pairs = zip(a.arguments, b.arguments, strict=True)
+    return all(x.numerator == y.numerator and x.denominator == y.denominator for x, y in pairs)
+
+
+class _Renaming:
+    """The map into a ring whose first generators are those of the element's own."""
+
+    def __init__(self, target: Ring):
+        self._target = target
+
+    def __call__(self, element: Element) -> Element:
+        if element.ring is self._target:
+            return element
+        return Element(self._target, element.numerator, element.denominator)
+
+
 def _by_name(rings: Sequence[Ring]) -> list[list[tuple]]:
     """Keys of the rings, symbols of one name replaced by one symbol.
 
@@ -69,11 +118,14 @@ def _renamed(ring: Ring, chosen: dict[tuple[str, str], Any]) -> list[tuple]:
     renamed = {key[1]: chosen[_name(key)] for key in plain if chosen[_name(key)] != key[1]}
     if not renamed:
         return list(ring.keys)
-    return [(key[0], key[1].xreplace(renamed), *key[2:]) for key in ring.keys]
+    own = [(key[0], key[1].xreplace(renamed), *key[2:]) for key in ring.named]
+    return [*own, *ring.keys[len(own) :]]
 
 
 def _name(key: tuple) -> tuple[str, str]:
-    return key[0], str(key[1]) if key[0] == "symbol" else key[1].func.__name__
+    if key[0] == "symbol":
+        return key[0], getattr(key[1], "name", "pi")
+    return key[0], key[1].func.__name__
 
 
 class Transfer:
@@ -135,7 +187,7 @@ class Transfer:
     def define_dependent(self) -> None:
         """Carry over what angles, roots, magnitudes and calls stand for, inner ones first."""
         source, target = self._source, self._target
-        for index in reversed(range(len(source.keys))):
+        for index in reversed(range(len(source.named))):
             self.image(index)
         for index, definition in source.definitions.items():
             if definition.kind == "sine":
