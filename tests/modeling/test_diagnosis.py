@@ -623,6 +623,6 @@ def test_a_table_for_students():
     assert "lost its factor 2" in html
     assert html.count("<tr>") == 2
     missing = moment_about_the_accelerating_hinge()
-    assert "<td>missing</td>" in ed.prove_equal(missing.student, missing.right)._repr_html_()
+    assert ">missing</td>" in ed.prove_equal(missing.student, missing.right)._repr_html_()
     assert "proved" in ed.prove_equal(missing.right, missing.right)._repr_html_()
     assert "<table" not in ed.prove_equal(missing.right, missing.right)._repr_html_()

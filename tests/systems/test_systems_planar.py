@@ -1,27 +1,34 @@
-"""S01, S02, S04, S05, S06, S08 and S09 against their definitions.
-
-The oracle knows nothing of the package: the definition's T, V, D and Q are typed once more as functions of
-numbers, and Lagrange's equations are formed from them by differences in 60-digit arithmetic.
-"""
+"""S01, S02, S04, S05, S06, S08 and S09 against their definitions, by the oracle of :mod:`systems.definitions`."""
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable
-from types import SimpleNamespace
 
-import mpmath
 import numpy as np
 import pytest
-from scipy.optimize import fsolve
-from sympy.physics.mechanics import Particle, RigidBody
 
 import engdyn as ed
 from engdyn import shapes
-from engdyn.plots.words import symbol
+from systems.definitions import (
+    Definition,
+    assert_accelerations,
+    assert_changed_energy_is_refuted,
+    assert_described_as,
+    assert_drawing_names_what_the_model_holds,
+    assert_labels_are_readable,
+    assert_other_masses_are_refuted,
+    assert_proved_and_independent,
+    changed_energies,
+    changed_loads,
+    eigenvalues_at,
+    reaction,
+    roots_from_grid,
+    steady_gradient,
+    unstable,
+    verdict_of_changed_load,
+)
 
-mpmath.mp.dps = 60
 PI = math.pi
 
 # Parameters (name, unit, default), coordinates (name, unit, bounds), inputs (name, unit, kind)
@@ -171,13 +178,22 @@ FORMULAS: dict[int, tuple[Callable, ...]] = {
 }
 
 
+INPUT_SIZE = {1: 100.0, 5: 3000.0, 8: 30.0}
+DEFINITIONS = {
+    number: Definition(
+        number,
+        formulas=FORMULAS[number],
+        signed=SIGNED,
+        input_size=INPUT_SIZE.get(number, 2.0),
+        rate_size=1.0 if number == 9 else 3.0,
+        **TABLES[number],
+    )
+    for number in NUMBERS
+}
+
+
 def names(number):
-    return [name for name, *_ in TABLES[number]["coordinates"]]
-
-
-def table(number):
-    rows = [row.split() for row in TABLES[number]["parameters"].split("; ")]
-    return [(name, unit.replace("_", " "), float(default)) for name, unit, default in rows]
+    return DEFINITIONS[number].names
 
 
 # What the definition says
@@ -185,17 +201,7 @@ def table(number):
 
 @pytest.mark.parametrize("number", NUMBERS)
 def test_names_units_and_defaults_are_those_of_the_definition(number):
-    system, given = ed.systems.load(number), TABLES[number]
-    assert (system.number, system.key) == (number, given["key"])
-    assert [(p.name, p.unit, p.default) for p in system.parameters] == table(number)
-    assert [(c.name, c.unit, c.bounds) for c in system.coordinates] == given["coordinates"]
-    assert [(i.name, i.unit, i.kind) for i in system.inputs] == given["inputs"]
-    for p in system.parameters:
-        plain = p.name[0] in "kc" and p.unit not in ("m", "kg")
-        assert (p.admissible == "any") == (p.name in SIGNED | {"g"})
-        assert (p.admissible == "nonnegative") == plain
-    for c in system.coordinates:
-        assert c.kind == ("ignorable" if c.bounds is None else "angle" if c.unit == "rad" else "length")
+    assert_described_as(DEFINITIONS[number])
 
 
 # Two derivations
@@ -203,184 +209,36 @@ def test_names_units_and_defaults_are_those_of_the_definition(number):
 
 @pytest.mark.parametrize("number", NUMBERS)
 def test_both_derivations_are_proved_equal_and_independent(number, monkeypatch):
-    system = ed.systems.load(number)
-    assert system.prove().verdict == "proved"
-
-    def forbidden(*_):
-        raise AssertionError("this route must not be used")
-
-    with monkeypatch.context() as patch:
-        for name in ("kinetic_energy", "potential_energy", "dissipation", "generalized_forces"):
-            patch.setattr(ed.System, name, property(forbidden))
-        alone = system.newton()
-    with monkeypatch.context() as patch:
-        patch.setattr(ed.System, "free_bodies", forbidden)
-        other = system.lagrange()
-    assert ed.prove_equal(alone, other)
-    assert set(alone.reactions) == set(system.unknowns)
-
-
-def newton_with(system, bodies):
-    """Newton's equations with other free bodies."""
-    return ed.newton_euler(bodies, [c.symbol for c in system.coordinates], system.frame, system.unknowns)
+    assert_proved_and_independent(ed.systems.load(number), monkeypatch)
 
 
 #: Loads that reactions balance entirely: (system, body, index).
 CARRIED = {(1, "ram", 3)}
 
 
-def changed_loads():
-    for number in NUMBERS:
-        for b, body in enumerate(ed.systems.load(number).free_bodies()):
-            for i in range(len(body.applied)):
-                for factor in (0, -1, 2):
-                    yield pytest.param(
-                        number, b, i, factor, id=f"S{number:02d}-{body.name}-{i}-times{factor}"
-                    )
-
-
-@pytest.mark.parametrize(("number", "b", "i", "factor"), list(changed_loads()))
+@pytest.mark.parametrize(("number", "b", "i", "factor"), list(changed_loads(NUMBERS)))
 def test_every_change_of_one_load_is_refuted(number, b, i, factor):
-    system = ed.systems.load(number)
-    bodies = system.free_bodies()
-    loads = list(bodies[b].applied)
-    where, vector = loads[i]
-    loads[i] = type(loads[i])(where, factor * vector)
-    if not factor:
-        del loads[i]
-    bodies[b] = ed.FreeBody(bodies[b].body, loads, bodies[b].reactions)
-    wrong = newton_with(system, bodies)
-    expected = "proved" if (number, bodies[b].name, i) in CARRIED else "refuted"
-    assert ed.prove_equal(wrong, system.lagrange()).verdict == expected
+    verdict, body = verdict_of_changed_load(ed.systems.load(number), b, i, factor)
+    assert verdict == ("proved" if (number, body, i) in CARRIED else "refuted")
 
 
-def changed_energies():
-    for number in NUMBERS:
-        system = ed.systems.load(number)
-        for name in ("kinetic_energy", "potential_energy", "dissipation"):
-            for i in range(len(getattr(system, name).as_ordered_terms())):
-                yield pytest.param(number, name, i, id=f"S{number:02d}-{name}-{i}")
-        for q, force in system.generalized_forces.items():
-            for i in range(len(force.as_ordered_terms())):
-                yield pytest.param(number, q, i, id=f"S{number:02d}-Q-{q.func}-{i}")
-
-
-@pytest.mark.parametrize(("number", "name", "i"), list(changed_energies()))
+@pytest.mark.parametrize(("number", "name", "i"), list(changed_energies(NUMBERS)))
 def test_every_change_of_one_energy_term_is_refuted(number, name, i):
-    reference = ed.systems.load(number).newton()
-    for factor in (0, -1, 2):
-        system = ed.systems.load(number)
-        if isinstance(name, str):
-            whole = getattr(system, name)
-            term = whole.as_ordered_terms()[i]
-            setattr(system, name, whole + (factor - 1) * term)
-        else:
-            force = system.generalized_forces[name]
-            system.generalized_forces[name] = force + (factor - 1) * force.as_ordered_terms()[i]
-        if number == 2 and name == "potential_energy" and not term.has(system.coordinates[0].symbol):
-            assert ed.prove_equal(reference, system.lagrange())  # the potential of the base's height
-        elif name == "kinetic_energy" and any(
-            system.kinetic_energy.diff(c.symbol.diff()) == 0 for c in system.coordinates
-        ):
-            with pytest.raises(ed.EngdynError, match="singular mass matrix"):
-                system.lagrange()
-        else:
-            assert ed.prove_equal(reference, system.lagrange()).verdict == "refuted"
+    assert_changed_energy_is_refuted(number, name, i)
 
 
 @pytest.mark.parametrize("number", NUMBERS)
 def test_every_other_mass_or_inertia_is_refuted(number):
-    system = ed.systems.load(number)
-    for b, body in enumerate(system.free_bodies()):
-        bodies, old = system.free_bodies(), body.body
-        if isinstance(old, Particle):
-            changed = [Particle(old.name, old.point, 2 * old.mass)]
-        else:
-            place, tensor = old.masscenter, old.central_inertia
-            changed = [RigidBody(old.name, place, old.frame, old.mass, (2 * tensor, place))]
-            if old.mass != 0:
-                changed.append(RigidBody(old.name, place, old.frame, 2 * old.mass, (tensor, place)))
-        for new in changed:
-            bodies[b] = ed.FreeBody(new, body.applied, body.reactions)
-            wrong = newton_with(system, bodies)
-            assert ed.prove_equal(wrong, system.lagrange()).verdict == "refuted"
+    assert_other_masses_are_refuted(ed.systems.load(number))
 
 
 # Accelerations
 
 
-class Moving:
-    """A random state of a system: numbers for everything, and where they lead at the time h."""
-
-    def __init__(self, number, seed):
-        source = np.random.default_rng([number, seed])
-        self.number, self.names = number, names(number)
-        self.values = {name: default * source.uniform(0.6, 1.4) for name, _, default in table(number)}
-        self.values |= {name: x * source.choice([-1, 1]) for name, x in self.values.items() if name in SIGNED}
-        regions = [bounds or (-3.0, 3.0) for *_, bounds in TABLES[number]["coordinates"]]
-        self.q = [source.uniform(*region) for region in regions]
-        self.u = [source.normal() * (1.0 if number == 9 else 3.0) for _ in self.q]
-        size = {1: 100.0, 5: 3000.0, 8: 30.0}.get(number, 2.0)
-        self.inputs = {name: tuple(size * source.normal(size=3)) for name, *_ in TABLES[number]["inputs"]}
-
-    def at(self, h, acceleration, q=None, u=None):
-        """All numbers at the time h of a motion with constant accelerations."""
-        mp = mpmath.mpf
-        found = {name: mp(x) for name, x in self.values.items()}
-        for name, x, rate, gain in zip(self.names, q or self.q, u or self.u, acceleration, strict=True):
-            found[name] = mp(x) + mp(rate) * h + mp(gain) * h**2 / 2
-            found[f"{name}_d"] = mp(rate) + mp(gain) * h
-        for name, (x, rate, gain) in self.inputs.items():
-            found[name] = mp(x) + mp(rate) * h + mp(gain) * h**2 / 2
-            found[f"{name}_d"] = mp(rate) + mp(gain) * h
-        return SimpleNamespace(**found)
-
-
-FUNCTIONS = (mpmath.sin, mpmath.cos, mpmath.sqrt)
-STEP = mpmath.mpf(10) ** -15
-
-
-def slope(function, numbers, name):
-    """Derivative of a formula by one of its numbers."""
-    ends = []
-    for sign in (1, -1):
-        moved = SimpleNamespace(**vars(numbers))
-        setattr(moved, name, getattr(numbers, name) + sign * STEP)
-        ends.append(function(moved, *FUNCTIONS))
-    return (ends[0] - ends[1]) / (2 * STEP)
-
-
-def lagrange_residual(state, acceleration):
-    """d/dt(dT/dq_d) - dT/dq + dV/dq + dD/dq_d - Q, each derivative by differences."""
-    kinetic, potential, dissipation, *forces = FORMULAS[state.number]
-    now = state.at(mpmath.mpf(0), acceleration)
-    later, before = state.at(STEP, acceleration), state.at(-STEP, acceleration)
-    rows = []
-    for name, force in zip(state.names, forces, strict=True):
-        momentum = [slope(kinetic, numbers, f"{name}_d") for numbers in (later, before)]
-        row = (momentum[0] - momentum[1]) / (2 * STEP) - slope(kinetic, now, name)
-        row += slope(potential, now, name) + slope(dissipation, now, f"{name}_d")
-        rows.append(row - force(now, *FUNCTIONS))
-    return mpmath.matrix(rows)
-
-
-def oracle_accelerations(state):
-    n = len(state.names)
-    at_rest = lagrange_residual(state, [0] * n)
-    mass = mpmath.matrix(n, n)
-    for j in range(n):
-        mass[:, j] = lagrange_residual(state, [int(i == j) for i in range(n)]) - at_rest
-    return [float(x) for x in mpmath.lu_solve(mass, -at_rest)]
-
-
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("number", NUMBERS)
 def test_accelerations_at_random_states(number, seed):
-    state, system = Moving(number, seed), ed.systems.load(number)
-    expected = oracle_accelerations(state)
-    for eom in (system.newton(), system.lagrange()):
-        found = eom.accelerations(state.q, state.u, state.values, state.inputs)
-        assert found == pytest.approx(expected, rel=1e-9, abs=1e-9)
+    assert_accelerations(DEFINITIONS[number], seed)
 
 
 # Equilibria and steady motions
@@ -388,37 +246,21 @@ def test_accelerations_at_random_states(number, seed):
 
 def brute_force(number, values, inputs=None, rate=0.0):
     """Roots from a dense grid of starts: d(V - T)/dq = Q at constant rates, by complex steps."""
-    kinetic, potential, _, *forces = FORMULAS[number]
-    functions = (np.sin, np.cos, np.sqrt)
-    sought = [(name, bounds) for name, _, bounds in TABLES[number]["coordinates"] if bounds]
+    definition = DEFINITIONS[number]
+    sought = [(name, bounds) for name, _, bounds in definition.coordinates if bounds]
     if number == 9:
         sought.append(("tau", (-20.0, 20.0)))  # the torque that holds the drum
     known = dict.fromkeys(names(number), 0.0) | {f"{name}_d": 0.0 for name in names(number)}
-    for name, *_ in TABLES[number]["inputs"]:
+    for name, *_ in definition.inputs:
         known |= {name: (inputs or {}).get(name, 0.0), f"{name}_d": 0.0}
     known |= values | ({"theta_d": rate} if number == 6 else {})
 
     def residual(z):
         at = known | dict(zip((name for name, _ in sought), z, strict=True))
-        rows = []
-        for name, force in zip(names(number), forces, strict=True):
-            if number == 6 and name == "theta":
-                continue
-            step = SimpleNamespace(**(at | {name: at[name] + 1e-30j}))
-            gradient = np.imag(potential(step, *functions) - kinetic(step, *functions)) / 1e-30
-            rows.append(gradient - np.real(force(SimpleNamespace(**at), *functions)))
-        return np.array(rows)
+        rows = steady_gradient(definition, at)
+        return np.array([row for name, row in rows.items() if (number, name) != (6, "theta")])
 
-    count = 90 if len(sought) == 1 else 18
-    grids = [np.linspace(*region, count) for _, region in sought]
-    found = []
-    for start in itertools.product(*grids):
-        root, _, flag, _ = fsolve(residual, start, full_output=True, xtol=1e-13)
-        inside = all(lo < x <= hi + 1e-9 for x, (_, (lo, hi)) in zip(root, sought, strict=True))
-        new = all(np.max(np.abs(root - other)) > 1e-6 for other in found)
-        if flag == 1 and inside and new and np.max(np.abs(residual(root))) < 1e-6:
-            found.append(root)
-    return sorted(found, key=tuple)
+    return roots_from_grid(residual, [region for _, region in sought], 90 if len(sought) == 1 else 18)
 
 
 def counted(number, roots):
@@ -454,26 +296,6 @@ def test_equilibria_are_those_of_a_brute_force_search(number, changes):
     assert len(rows) == len(expected)
     for row, root in zip(sorted(rows), expected, strict=True):
         assert row == pytest.approx(root, abs=1e-7)
-
-
-def eigenvalues_at(system, equilibrium):
-    return ed.eigenvalues(ed.linearize(system.equations, equilibrium))
-
-
-def unstable(system, equilibrium):
-    return int(np.sum(eigenvalues_at(system, equilibrium).real > 1e-9))
-
-
-def reaction(system, name, q, u, udot, inputs=None):
-    """A reaction as a number, all parameters at their defaults."""
-    t = system.coordinates[0].symbol.args[0]
-    expression = system.newton().reactions[next(x for x in system.unknowns if x.name == name)]
-    for order, numbers in ((2, udot), (1, u), (0, q)):
-        pairs = zip(system.coordinates, numbers, strict=True)
-        expression = expression.subs({(c.symbol.diff(t, order) if order else c.symbol): x for c, x in pairs})
-    known = {p.symbol: p.default for p in system.parameters}
-    known |= {i.symbol: (inputs or {}).get(i.name, 0.0) for i in system.inputs}
-    return float(expression.subs(known))
 
 
 def test_press_has_two_stable_and_two_unstable_positions():
@@ -598,33 +420,12 @@ POSES = {
 
 @pytest.mark.parametrize(("number", "q"), [(number, q) for number in NUMBERS for q in POSES[number]])
 def test_labels_neither_overlap_nor_leave_the_picture(number, q):
-    ax = ed.plots.draw(ed.systems.load(number), q)
-    ax.figure.canvas.draw()
-    renderer, frame = ax.figure.canvas.get_renderer(), ax.figure.bbox
-    extents = [text.get_window_extent(renderer) for text in ax.texts]
-    for extent in extents:
-        assert frame.x0 <= extent.x0 < extent.x1 <= frame.x1
-        assert frame.y0 <= extent.y0 < extent.y1 <= frame.y1
-    for a, b in itertools.combinations(extents, 2):
-        assert not a.overlaps(b), (a, b)
-
-
-def plain(text):
-    return text.replace("$", " ").replace(",", " ").replace("{", "").replace("}", "").replace("\\ ", " ")
+    assert_labels_are_readable(ed.systems.load(number), q)
 
 
 @pytest.mark.parametrize("number", NUMBERS)
 def test_a_drawing_names_what_the_model_holds(number):
-    system = ed.systems.load(number)
-    drawn = system.shapes(POSES[number][1], system.values())
-    words = " ".join(plain(getattr(x, "label", "") or getattr(x, "text", "")) for x in drawn).split()
-    assert {plain(symbol(p)).strip() for p in system.parameters} <= set(words)
-    arrows = [x for x in drawn if isinstance(x, shapes.CoordinateArrow | shapes.AngleArrow)]
-    assert sorted(plain(x.label) for x in arrows) == sorted(plain(symbol(c)) for c in system.coordinates)
-    pushes = [x for x in drawn if isinstance(x, shapes.ForceArrow | shapes.MomentArrow)]
-    assert {plain(symbol(i)) for i in system.inputs} <= {plain(x.label) for x in pushes}
-    weight = any(p.name == "g" for p in system.parameters)
-    assert any(isinstance(x, shapes.GravityArrow) for x in drawn) == weight
+    assert_drawing_names_what_the_model_holds(ed.systems.load(number), POSES[number][1])
 
 
 @pytest.mark.parametrize("theta", [0.3, -2.0, 3.0])

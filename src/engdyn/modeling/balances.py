@@ -14,6 +14,7 @@ from engdyn.algebra.elimination import eliminate, independent_columns, primitive
 from engdyn.algebra.readable import to_sympy, tree
 from engdyn.algebra.ring import Element
 from engdyn.errors import EngdynError
+from engdyn.modeling.nonholonomic import total
 from engdyn.modeling.state import State
 
 __all__ = ["Balance", "Balances"]
@@ -163,5 +164,25 @@ class Balances:
             for entry, udot in zip(row[k : k + n], accelerations, strict=True):
                 rest = rest + entry * udot
             rows.append([*row[:k], rest])
-        found = solve(rows, k) or []
+        found = solve([*rows, *self._along_reactions(rows)], k) or []
         return {x: to_sympy(tree(e)) for x, e in zip(self.unknowns, found, strict=True)}
+
+    def _along_reactions(self, rows: list[list[Element]]) -> list[list[Element]]:
+        """Balances of a body along the direction of a reaction, where no axis of the balances has it.
+
+        Written along other axes, the reaction would be divided by the cosine between them, which may vanish.
+        """
+        triples: dict[str, list[list[Element]]] = {}
+        for balance, row in zip(self.balances, rows, strict=True):
+            triples.setdefault(balance.name.rpartition(" along ")[0], []).append(row)
+        found = []
+        for triple in triples.values():
+            for column in range(len(self.unknowns)):
+                weights = [row[column] for row in triple]
+                if any(w.as_rational() is not None and not w.is_zero() for w in weights):
+                    continue
+                length = total(w * w for w in weights)
+                if not length.is_zero() and length.as_rational() is not None:
+                    terms = ([w * e for e in row] for w, row in zip(weights, triple, strict=True))
+                    found.append([total(column) for column in zip(*terms, strict=True)])
+        return found

@@ -27,18 +27,22 @@ def count_in_words(chain: Steps) -> str:
 def as_html(chain: Steps) -> str:
     """The steps of a chain, and the count of its degrees of freedom, as an HTML table."""
     rows = "".join(
-        f"<tr><td>{number}</td><td>{escape(step.kind)}</td><td>{_definition(step, chain)}</td>"
-        f"<td>{escape(step.meaning)}</td></tr>"
+        f"<tr>{_left(str(number), escape(step.kind), _definition(step, chain), escape(step.meaning))}</tr>"
         for number, step in enumerate(chain.steps, start=1)
     )
     coordinates = _listed(chain.coordinates) or "none"
     given = f"; prescribed: {_listed(chain.prescribed)}" if chain.prescribed else ""
     return (
-        "<table><thead><tr><th>step</th><th>kind</th><th>definition</th><th>meaning</th></tr></thead>"
+        f"<table><thead><tr>{_left('step', 'kind', 'definition', 'meaning', tag='th')}</tr></thead>"
         f"<tbody>{rows}</tbody></table>"
         f"<p>Coordinates: {coordinates}{given}. "
         f"Degrees of freedom: {escape(count_in_words(chain))}.</p>"
     )
+
+
+def _left(*cells: str, tag: str = "td") -> str:
+    """Cells of a table of words: JupyterLab would set them flush right."""
+    return "".join(f'<{tag} style="text-align:left">{cell}</{tag}>' for cell in cells)
 
 
 def _definition(step: ChainStep, chain: Steps) -> str:

@@ -71,7 +71,7 @@ class Proof:
         if not self.differences:
             return text
         rows = "".join(_html_row(difference) for difference in self.differences[:SHOWN])
-        heads = "".join(f"<th>{head}</th>" for head in ("equation", "your term", "should be", "remark"))
+        heads = "".join(f'<th style="text-align:left">{head}</th>' for head in ("equation", "your term", "should be", "remark"))
         more = len(self.differences) - SHOWN
         rest = f"and {more} more: the equations have little in common" if more > 0 else ""
         return f"{text}<table><tr>{heads}</tr>{rows}</table>{rest}"
@@ -85,7 +85,7 @@ def _html_row(difference: Difference) -> str:
         "nothing" if difference.kind == "extra" else expected,
         escape(difference.remark or difference.in_short),
     ]
-    return f"<tr>{''.join(f'<td>{cell}</td>' for cell in cells)}</tr>"
+    return "<tr>" + "".join(f'<td style="text-align:left">{cell}</td>' for cell in cells) + "</tr>"
 
 
 def prove_equal(a: EquationsOfMotion, b: EquationsOfMotion) -> Proof:
