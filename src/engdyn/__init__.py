@@ -8,6 +8,9 @@ what the lazy names are; a test keeps the two in step.
 
 from __future__ import annotations
 
+import sys
+from importlib import import_module
+
 import lazy_loader
 
 __version__ = "0.1.0"
@@ -71,3 +74,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "analysis.stability": ["Stability", "stability"],
     },
 )
+
+if "IPython" in sys.modules:  # by name: the package itself stands below all of its layers
+    import_module("engdyn.display").register()
