@@ -171,3 +171,87 @@ def test_the_equations_of_the_analyses_are_derived_once():
     assert crane.newton().defaults == {}
     governor = ed.systems.load("S03")
     assert [w.func.__name__ for w in governor.newton().defaults] == ["drive"]
+
+
+def carousel(**changes) -> System:
+    """A bob on an arm that is turned at a rate: the rate W occurs in the steady motion alone."""
+    ps = [
+        Parameter("m", "kg", 2.0, "bob"),
+        Parameter("L", "m", 0.5, "arm"),
+        Parameter("W", "rad/s", 8.0, "rate of the steady motion", "any"),
+        Parameter("g", "m/s^2", 9.81, "gravity", "any"),
+    ]
+    m, L, _, g = (p.symbol for p in ps)
+    turn, tilt, M, F = dynamicsymbols("turn tilt M F")
+    kinetic = m * L**2 * (tilt.diff() ** 2 + (turn.diff() * sm.sin(tilt)) ** 2) / 2 + turn.diff() ** 2
+    where = [
+        Coordinate(turn, "rad", "about the vertical", None, "ignorable"),
+        Coordinate(tilt, "rad", "from the downward vertical", (-math.pi, math.pi)),
+    ]
+    held = {"steady": lambda values, inputs: {"rates": {"turn": values["W"]}, "free": ["M"]}}
+    return System(title="Carousel", coordinates=where, parameters=ps, kinetic_energy=kinetic,
+                  potential_energy=-m * g * L * sm.cos(tilt), generalized_forces={turn: M, tilt: F * L},
+                  inputs=[Input(M, "N m", "motor", "couple"), Input(F, "N", "push")],
+                  **(held | changes))  # fmt: skip
+
+
+def test_a_parameter_of_the_steady_motion_alone_can_be_varied():
+    found = carousel().branches("W", (2.0, 10.0))
+    (fork,) = (p for p in found.points if abs(p.q[1]) < 1e-6)
+    assert fork.kind == "pitchfork"
+    assert fork.parameter == pytest.approx(math.sqrt(9.81 / 0.5), rel=1e-9)
+    leaning = [b for b in found if np.ptp(np.abs(b.q[:, 1])) > 0.1]
+    assert len(leaning) == 2
+    for branch in leaning:
+        np.testing.assert_allclose(np.cos(branch.q[:, 1]), 9.81 / (0.5 * branch.parameter**2), atol=1e-8)
+
+
+def test_what_the_steady_motion_sets_gives_way_to_what_is_given():
+    pushed = carousel(steady=lambda values, inputs: {"rates": {"turn": 0.0}, "inputs": {"F": 4.0}})
+    expected = math.asin(4.0 / (2.0 * 9.81))
+    assert sorted(e.q[1] for e in pushed.equilibria()) == pytest.approx([expected, math.pi - expected])
+    assert sorted(e.q[1] for e in pushed.equilibria(F=-4.0)) == pytest.approx([expected - math.pi, -expected])
+    for given, side in (({}, 1), ({"F": -4.0}, -1)):
+        branches = pushed.branches("g", (8.0, 12.0), **given)
+        assert len(branches) == 2
+        assert all(side * b.q[i, 1] > 0 for b in branches for i in (0, -1))
+
+
+def test_bounds_of_the_steady_motion_join_those_of_the_coordinates():
+    def narrow(values, inputs):
+        return {"rates": {"turn": 0.0}, "bounds": {"tilt": (-values["L"], 2 * values["L"])}}
+
+    assert [e.q[1] for e in carousel(steady=narrow).equilibria()] == [0.0]
+    assert len(carousel(steady=narrow).equilibria({"L": 2.0})) == 2
+    over = carousel(steady=narrow).branches("L", (1.0, 2.0))  # upright within the bounds from L = pi/2
+    assert sorted(round(float(b.parameter.min()), 6) for b in over) == [1.0, round(math.pi / 2, 6)]
+
+
+def test_a_region_that_is_no_box():
+    asked = []
+
+    def leaning(q, values):
+        asked.append(values["W"])
+        return abs(q[1]) * values["L"] > 0.1
+
+    found = carousel(region=leaning).equilibria()
+    angle = math.acos(9.81 / (0.5 * 64))
+    assert found.certified
+    np.testing.assert_allclose([e.q[1] for e in found], [-angle, angle, math.pi])
+    branches = carousel(region=leaning).branches("W", (2.0, 10.0))
+    assert min(abs(q) for b in branches for q in b.q[:, 1]) == pytest.approx(0.2, abs=1e-6)
+    assert set(asked) > {8.0}  # the varied parameter with its values along the branches
+
+
+def test_a_rate_that_varies_and_takes_others_along_is_refused():
+    train = ed.systems.load("S20")
+    wind = next(p.symbol for p in train.parameters if p.name == "v")
+    with pytest.raises(ed.EngdynError, match="also prescribe those of tb, tg"):
+        ed.continue_equilibria(
+            train.equations,
+            train.values(),
+            "v",
+            (8.0, 12.0),
+            rates={"tr": wind / 6},
+            free=["T_w"],
+        )

@@ -55,8 +55,13 @@ class System:
     constraints : sequence of expressions, optional
         Nonholonomic velocity constraints = 0.
     steady : callable, optional
-        ``steady(values, inputs)`` returns keyword arguments for :func:`engdyn.equilibria` (rates,
-        accelerations, free) that define the steady motion looked for.
+        ``steady(values, inputs)`` returns keyword arguments for :func:`engdyn.equilibria` that define
+        the steady motion looked for: rates, accelerations, free; inputs that hold where they are not
+        given; bounds beside those of the coordinates.  Of a parameter that varies along a branch it
+        gets the symbol.
+    region : callable, optional
+        ``region(q, values)`` says whether a place within the bounds belongs to the region in which
+        equilibria are looked for, where that is no box.
     number, key, field, description, measured :
         Place in the catalogue, field of engineering, description and what one would measure.
 
@@ -89,6 +94,7 @@ class System:
         pose: Sequence[float] | None = None,
         constraints: Sequence[sm.Expr] = (),
         steady: Callable[..., dict] | None = None,
+        region: Callable[..., bool] | None = None,
         number: int | None = None,
         key: str = "own_system",
         field: str = "",
@@ -101,7 +107,7 @@ class System:
         self.kinetic_energy, self.potential_energy = kinetic_energy, potential_energy
         self.dissipation, self.generalized_forces = dissipation, dict(generalized_forces or {})
         self.frame, self.unknowns, self.constraints = frame, tuple(unknowns), tuple(constraints)
-        self._free_bodies, self._shapes, self._steady = free_bodies, shapes, steady
+        self._free_bodies, self._shapes, self._steady, self._region = free_bodies, shapes, steady, region
         self.pose = None if pose is None else tuple(float(x) for x in pose)
         names = [p.name for p in self.parameters]
         if len(set(names)) != len(names):
@@ -187,8 +193,8 @@ class System:
         """
         from engdyn.analysis.equilibrium import equilibria
 
-        values, steady = self._question(values, inputs)
-        return equilibria(self.equations, values, self.bounds, inputs, **steady)
+        complete, question = self._question(values, inputs)
+        return equilibria(self.equations, complete, **question)
 
     def branches(
         self,
@@ -212,18 +218,20 @@ class System:
         """
         from engdyn.analysis.branches import continue_equilibria
 
-        values, steady = self._question(values, inputs)
-        return continue_equilibria(
-            self.equations, values, parameter, range, bounds=self.bounds, inputs=inputs, **steady
-        )
+        complete, question = self._question(values, inputs, parameter)
+        return continue_equilibria(self.equations, complete, parameter, range, **question)
 
     def _question(
-        self, values: Mapping[str, float] | None, inputs: Mapping[str, Any]
+        self, values: Mapping[str, float] | None, inputs: Mapping[str, Any], varied: str | None = None
     ) -> tuple[dict[str, float], dict[str, Any]]:
-        """All parameters, and what the system's steady motion prescribes."""
+        """All parameters; and region, inputs and steady motion as arguments of ``equilibria``."""
         complete = self.complete(values)
         self._check_inputs(inputs)
-        return complete, self._steady(complete, inputs) if self._steady else {}
+        symbols = {p.name: p.symbol for p in self.parameters if p.name == varied}
+        question = dict(self._steady({**complete, **symbols}, inputs)) if self._steady else {}
+        question["bounds"] = {**self.bounds, **question.get("bounds", {})}
+        question["inputs"] = {**question.get("inputs", {}), **inputs}
+        return complete, {**question, "region": self._region}
 
     def complete(self, values: Mapping[str, float] | None) -> dict[str, float]:
         """Given values, checked, with the defaults for those not given."""

@@ -109,3 +109,25 @@ def test_half_car_over_its_load():
     for i in (0, -1):
         (e,) = car.equilibria({"m_s": float(branch.parameter[i])})
         np.testing.assert_allclose(branch.q[i], e.q, atol=1e-10)
+
+
+def test_turntable_over_a_rate_that_only_its_steady_motion_knows():
+    """S06: (k − m Ω²) s = k s_0 while s < 1 m; the torque of the bearing, c_t Ω, is solved for."""
+    table = ed.systems.load(6)
+    (branch,) = table.branches("Omega", (5.0, 25.0))
+    v = table.values()
+    np.testing.assert_allclose(branch.q[:, 1], v["k"] * v["s_0"] / (v["k"] - v["m"] * branch.parameter**2))
+    assert branch.parameter.max() == pytest.approx(math.sqrt(0.75 * v["k"] / v["m"]))  # there s = 1 m
+    assert branch.stable.all()
+
+
+def test_gymnast_within_the_region_of_the_hip():
+    gymnast = ed.systems.load(8)
+    found = gymnast.branches("k_h", (20.0, 200.0))
+    (fork,) = found.points
+    assert fork.kind == "pitchfork"
+    np.testing.assert_allclose(fork.q, [math.pi, math.pi], atol=1e-6)
+    for branch in found:
+        assert np.all(np.abs(branch.q[:, 1] - branch.q[:, 0]) < math.pi + 1e-6)
+    # The handstand is one state: its angles -pi, -pi are left out.
+    assert sum(np.ptp(b.q) < 1e-9 and abs(b.q[0, 0]) > 3.0 for b in found) == 1

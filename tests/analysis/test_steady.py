@@ -219,3 +219,36 @@ def test_steady_precession_of_a_heavy_top():
         balance = values["C"] * spin * slow - values["A"] * slow**2 * math.cos(e.q[1])
         np.testing.assert_allclose(balance, 1.5 * 9.81 * 0.05, rtol=1e-10)
         assert is_steady(eom, e)
+
+
+# ---------------------------------------------------------------- expressions in the parameters
+
+
+def test_what_is_prescribed_may_be_an_expression_in_the_parameters():
+    """The crane pulled with F = a (M_t + m) without resistance accelerates with a, whatever the masses."""
+    named = {p.name: p.symbol for p in CRANE.parameters}
+    pull = 0.7 * (named["M_t"] + named["m"])
+    options = {"values": {"c_x": 0.0, "m": 800.0}, "inputs": {"F": pull}}
+    values, answer = crane(**options)
+    assert all(e.inputs["F"] == pytest.approx(0.7 * (values["M_t"] + 800.0)) for e in answer)
+    np.testing.assert_allclose([e.accelerations[0] for e in answer], [0.7, 0.7])
+    _, same = crane(**options, accelerations={"x": 0.07 * named["g"] / sm.Float("0.981")})
+    np.testing.assert_allclose([e.q for e in same], [e.q for e in answer])
+    with pytest.raises(ed.EngdynError, match=r"inputs\['F'\] is F_0.*expression in parameters with values"):
+        crane(inputs={"F": sm.Symbol("F_0")})
+    with pytest.raises(ed.EngdynError, match=r"rates\['x'\]"):
+        crane(rates={"x": sm.sqrt(-named["m"])})
+
+
+def test_inputs_and_accelerations_follow_the_parameter_along_a_branch():
+    named = {p.name: p.symbol for p in CRANE.parameters}
+    values = CRANE.values(c_x=0)
+    for given in (
+        {"inputs": {"F": named["m"] ** 2 / 100}},
+        {"accelerations": {"x": named["m"] ** 2 / 100 / (named["M_t"] + named["m"])}, "free": ["F"]},
+    ):
+        found = ed.continue_equilibria(CRANE.equations, values, "m", (200.0, 3000.0), **given)
+        assert len(found) == 2
+        for branch in found:
+            gain = branch.parameter**2 / 100 / (values["M_t"] + branch.parameter)
+            np.testing.assert_allclose(np.tan(branch.q[:, 1]), -gain / values["g"], rtol=1e-9)

@@ -387,7 +387,9 @@ def test_a_reaction_is_found_where_no_axis_of_the_balances_has_its_direction():
     place = origin.locatenew("P", x * ground.x + p * x**2 * ground.y)
     slope = sm.sqrt(1 + 4 * p**2 * x**2)
     normal = (-2 * p * x * ground.x + ground.y) / slope
-    cut = ed.FreeBody(Particle("bead", place, m), [Force(place, -m * g * ground.y)], [Force(place, force * normal)])
+    cut = ed.FreeBody(
+        Particle("bead", place, m), [Force(place, -m * g * ground.y)], [Force(place, force * normal)]
+    )
     found = ed.newton_euler([cut], [x], ground, [force]).reactions[force]
     numbers = {x.diff(dynamicsymbols._t, 2): 0.3, x.diff(): 0.7, x: 0, m: 2.0, p: 0.8, g: 9.81}
     assert float(found.subs(numbers)) == pytest.approx(2.0 * (9.81 + 2 * 0.8 * 0.7**2))

@@ -23,7 +23,7 @@ from sympy.physics.mechanics import Particle, RigidBody
 import engdyn as ed
 from engdyn import shapes
 from engdyn.plots.words import symbol
-from engdyn.systems.attitudes import angles_231, angles_321, matrix_231, matrix_321
+from engdyn.systems.attitudes import PITCH, SECOND, angles_231, angles_321, matrix_231, matrix_321
 
 mpmath.mp.dps = 60
 PI = math.pi
@@ -910,8 +910,12 @@ def test_eight_of_the_attitudes_need_other_angles_and_have_them():
     assert [len(same) for same in verdicts.values()] == [4] * 6
     for first, *others in verdicts.values():  # four attitudes of one kind move alike
         assert all(np.allclose(first, other, atol=1e-8) for other in others)
-    with pytest.raises(ed.EngdynError, match="singular"):
-        ed.linearize(satellite.equations, next(e for e in found if abs(e.q[1]) > 1.5))
+
+
+def test_every_attitude_can_be_linearized_as_it_is_found():
+    satellite = ed.systems.load(22)
+    found = [ed.stability(ed.linearize(satellite.equations, e)).verdict for e in satellite.equilibria()]
+    assert found.count("asymptotically stable") == 4
 
 
 @pytest.mark.parametrize("J", list(itertools.permutations((80.0, 90.0, 20.0))))
@@ -973,6 +977,11 @@ def _turning(q):
             [math.cos(phi) * math.cos(theta), -math.sin(phi), 0],
         ]
     )
+
+
+def test_no_attitude_is_left_out_by_both_searches():
+    for R in Rotation.random(20000, random_state=5).as_matrix():
+        assert abs(angles_321(R)[1]) <= PITCH or abs(angles_231(R)[1]) <= SECOND
 
 
 @pytest.mark.parametrize("seed", range(20))

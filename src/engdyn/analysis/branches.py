@@ -12,12 +12,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import sympy as sm
 
 from engdyn.analysis.continuation import trace
-from engdyn.analysis.equilibrium import Equilibrium, equilibria
+from engdyn.analysis.equilibrium import Equilibrium, Region, equilibria
 from engdyn.analysis.family import Curve, Family
 from engdyn.analysis.linear import linearize, sorted_eigenvalues
 from engdyn.analysis.neutral import neutral_eigenvalues
+from engdyn.analysis.prescribed import symbols_in
 from engdyn.analysis.small_motion import assemble, compiled_blocks, unpacked
 from engdyn.analysis.stability import verdict_of
 from engdyn.errors import EngdynError
@@ -114,16 +116,17 @@ def continue_equilibria(
     rates: Mapping[str, float] | None = None,
     accelerations: Mapping[str, float] | None = None,
     free: Sequence[str] = (),
+    region: Region | None = None,
     starts: int = 5,
 ) -> BranchSet:
     """Follow all equilibria while one parameter varies.
 
     Parameters
     ----------
-    eom, values, bounds, inputs, rates, accelerations, free :
-        As in :func:`engdyn.equilibria`.
+    eom, values, bounds, inputs, rates, accelerations, free, region :
+        As in :func:`engdyn.equilibria`; what is given as an expression in the parameter follows it.
     parameter : str
-        Name of the parameter that varies.
+        Name of the parameter that varies; it occurs in the equations, or in what is prescribed.
     range : (float, float)
         First and last value of it [SI].
     starts : int
@@ -146,17 +149,18 @@ def continue_equilibria(
     """
     if not isinstance(eom, EquationsOfMotion):
         raise EngdynError(f"eom is {eom!r}: give EquationsOfMotion, for example system.lagrange()")
-    low, high = _checked_range(eom, parameter, range)
     steady = {"inputs": inputs, "rates": rates, "accelerations": accelerations, "free": free}
-    family = Family(eom, values, parameter, (low, high), bounds, steady)
+    symbol, (low, high) = _varied(eom, parameter, steady), _checked_range(parameter, range)
+    family = Family(eom, values, symbol, (low, high), bounds, steady, region)
     places = [float(x) for x in np.linspace(low, high, max(int(starts), 2))]
-    found = [equilibria(eom, {**values, parameter: x}, bounds, **steady) for x in places]
+    found = [equilibria(eom, {**values, parameter: x}, bounds, region=region, **steady) for x in places]
     if all(set(each.neutral) != set(family.problem.neutral) for each in found):
         raise EngdynError(
             f"{parameter} changes which motion is neutral ({', '.join(found[0].neutral)}): vary another "
             "parameter, or search for equilibria at single values of this one"
         )
     seeds = [(x, family.unknown_part(e)) for x, each in zip(places, found, strict=True) for e in each]
+    family.fit([z for _, z in seeds])
     curves, singular = trace(family, seeds)
     ends = [np.append(z, at) for _, at, z in singular]
     branches = tuple(_branch(family, curve, ends) for curve in curves)
@@ -164,10 +168,16 @@ def continue_equilibria(
     return BranchSet(branches, points, parameter, (low, high), tuple(family.names))
 
 
-def _checked_range(eom: EquationsOfMotion, parameter: str, range: Any) -> tuple[float, float]:
-    known = [p.name for p in eom.parameters]
+def _varied(eom: EquationsOfMotion, parameter: str, steady: Mapping[str, Any]) -> sm.Symbol:
+    """Symbol of the parameter, in the equations or else in what is prescribed."""
+    known = {s.name: s for given in steady.values() for s in symbols_in(given)}
+    known |= {p.name: p for p in eom.parameters}
     if parameter not in known:
         raise EngdynError(f"unknown parameter {parameter!r}: the equations have {', '.join(known)}")
+    return known[parameter]
+
+
+def _checked_range(parameter: str, range: Any) -> tuple[float, float]:
     try:
         low, high = (float(x) for x in range)
     except (TypeError, ValueError) as error:

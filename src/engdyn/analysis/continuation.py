@@ -226,7 +226,8 @@ class _Tracer:
         for _ in range(48):
             middle = 0.5 * (low + high)
             here = self._corrected(y + middle * tangent, tangent)
-            if here is None:  # on the branch point itself the corrector has no unique answer
+            # On the branch point itself the corrector has no unique answer, or leaps away.
+            if here is None or np.linalg.norm(here - y) > 2.0 * middle + 1e-6:
                 return best
             best = here
             if np.sign(self._tests(here, self._tangent(here, tangent))[which]) == sign:

@@ -7,12 +7,20 @@ ignorable by itself, the combination is.  Course section 4.4.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from fractions import Fraction
 from typing import Any
 
 from engdyn.algebra.ring import Element, Ring
+from engdyn.analysis.exact_sample import ExactSample, primes
+from engdyn.analysis.residues import Matrix, rank
+from engdyn.analysis.slopes import slopes
+from engdyn.errors import EngdynError
 
 __all__ = ["Ties", "imply_rates", "neutral_directions", "ties"]
+
+ATTEMPTS = 4
+"""Random points at which slopes are looked at before they are expanded."""
 
 Vector = list[Fraction]
 Ties = Sequence[tuple[int, Vector]]
@@ -73,6 +81,8 @@ def neutral_directions(ring: Ring, rows: Sequence[Element], keys: Sequence[tuple
     list of lists of Fraction, each of length n
         In echelon form: the first entry that is not zero is 1, and the other directions have 0 there.
     """
+    if _all_noticed(ring, rows, keys):
+        return []
     partials = [ring.partial(key) for key in keys]
     pivots: list[tuple[int, Vector]] = []
     for row in rows:
@@ -86,6 +96,24 @@ def neutral_directions(ring: Ring, rows: Sequence[Element], keys: Sequence[tuple
             if len(pivots) == len(keys):
                 return []
     return _null_space(pivots, len(keys))
+
+
+def _all_noticed(ring: Ring, rows: Sequence[Element], keys: Sequence[tuple[Any, ...]]) -> bool:
+    """Whether slopes at random points, modulo a prime, rule out every direction.
+
+    A direction that no equation notices is orthogonal to the slopes at all points; so what rules it out
+    at a few is proved. Derivatives with denominators of thousands of terms need not be expanded for it.
+    """
+    moved = [slopes(ring, row, keys) for row in rows]
+    seen: Matrix = []
+    for attempt in range(1, ATTEMPTS + 1):
+        prime = primes(1)[0]
+        sample = ExactSample(ring, attempt, prime)
+        with suppress(EngdynError):  # no square root of a radicand, a denominator of zero: the next one
+            seen += [[sample.sum_of_products(products) for products in row] for row in moved]
+        if rank(seen, prime) == len(keys):
+            return True
+    return False
 
 
 def _common_denominator(elements: Sequence[Element]) -> list[Element]:

@@ -14,6 +14,7 @@ import numpy as np
 from engdyn.algebra.balls import ball, contains_zero, is_finite, lower, upper
 from engdyn.algebra.codegen import compile_elements
 from engdyn.analysis.enclosure import enclose_roots
+from engdyn.analysis.prescribed import evaluated
 from engdyn.analysis.results import Equilibrium, EquilibriumSet
 from engdyn.analysis.slopes import Products, as_products, compile_products, slopes
 from engdyn.analysis.steady import SteadyProblem, Unknown
@@ -21,7 +22,10 @@ from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.numbers import input_values, mass_and_force, parameter_values
 
-__all__ = ["Equilibrium", "EquilibriumSet", "equilibria"]
+__all__ = ["Equilibrium", "EquilibriumSet", "Region", "equilibria"]
+
+Region = Callable[[np.ndarray, Mapping[str, float]], bool]
+"""Whether coordinates q belong to what is searched, given the parameters; for regions that are no boxes."""
 
 
 def equilibria(
@@ -32,6 +36,7 @@ def equilibria(
     rates: Mapping[str, float] | None = None,
     accelerations: Mapping[str, float] | None = None,
     free: Sequence[str] = (),
+    region: Region | None = None,
 ) -> EquilibriumSet:
     """All equilibria and steady motions in a region.
 
@@ -52,6 +57,9 @@ def equilibria(
         has no influence).
     free : sequence of str
         Inputs that are solved for (the drive torque that holds a prescribed rate, say).
+    region : callable, optional
+        ``region(q, values)`` says whether a place within the bounds is asked for; for regions that
+        are no boxes.
 
     Returns
     -------
@@ -65,12 +73,15 @@ def equilibria(
 
     Notes
     -----
-    Course sections 4.1 to 4.4.  Roots are enclosed by interval Newton steps in ball arithmetic (see
+    Course sections 4.1 to 4.4.  Bounds, inputs, rates and accelerations may be expressions in the
+    parameters.  Roots are enclosed by interval Newton steps in ball arithmetic (see
     :mod:`engdyn.analysis.enclosure`); parameters enter as the rationals of their decimals.
     """
     if not isinstance(eom, EquationsOfMotion):
         raise EngdynError(f"eom is {eom!r}: give EquationsOfMotion, for example system.lagrange()")
-    bounds = _checked_bounds(eom, bounds)
+    inputs, rates = evaluated(inputs, values, "inputs"), evaluated(rates, values, "rates")
+    accelerations = evaluated(accelerations, values, "accelerations")
+    bounds = _checked_bounds(eom, evaluated(bounds, values, "bounds"))
     problem = SteadyProblem(eom, values, inputs, rates, accelerations, free)
     problem.eliminate_linear(bounds)
     names = tuple(problem.names)
@@ -79,13 +90,13 @@ def equilibria(
         return EquilibriumSet((), None, (), tuple(problem.neutral), why, names)
     _check_count(problem)
     if not problem.unknowns:
-        return EquilibriumSet(
-            tuple(_complete(problem, [[]], bounds)), None, (), tuple(problem.neutral), "", names
-        )
-    region = [_region(problem, unknown, bounds) for unknown in problem.unknowns]
-    periodic = [i for i, u in enumerate(problem.unknowns) if is_periodic(problem, u, region[i])]
-    certificate = enclose_roots(*_ball_functions(problem), region, periodic=periodic)
-    found = _complete(problem, [[ball(*side) for side in root] for root in certificate.roots], bounds)
+        found = _complete(problem, [[]], bounds, region)
+        return EquilibriumSet(tuple(found), None, (), tuple(problem.neutral), "", names)
+    box = [_region(problem, unknown, bounds) for unknown in problem.unknowns]
+    periodic = [i for i, u in enumerate(problem.unknowns) if is_periodic(problem, u, box[i])]
+    certificate = enclose_roots(*_ball_functions(problem), box, periodic=periodic)
+    enclosed = [[ball(*side) for side in root] for root in certificate.roots]
+    found = _complete(problem, enclosed, bounds, region)
     labels = tuple(u.name for u in problem.unknowns)
     return EquilibriumSet(tuple(found), certificate, labels, tuple(problem.neutral), "", names)
 
@@ -186,7 +197,10 @@ def _on_balls(problem: SteadyProblem, entries: Sequence[Products]) -> Callable[[
 
 
 def _complete(
-    problem: SteadyProblem, roots: Sequence[list[Any]], bounds: Mapping[str, tuple[float, float]]
+    problem: SteadyProblem,
+    roots: Sequence[list[Any]],
+    bounds: Mapping[str, tuple[float, float]],
+    region: Region | None,
 ) -> list[Equilibrium]:
     """Equilibria from enclosures of the unknowns: eliminated unknowns added, bounds and inertia checked."""
     follow = (
@@ -201,7 +215,8 @@ def _complete(
         if any(not _inside(solution[name], bounds[name]) for name in solution if name in bounds):
             continue
         equilibrium = _equilibrium(problem, {name: _middle(b) for name, b in solution.items()})
-        if not _is_singular(problem, solution, equilibrium):
+        wanted = region is None or region(equilibrium.q, equilibrium.values)
+        if wanted and not _is_singular(problem, solution, equilibrium):
             found.append(equilibrium)
     return sorted(found, key=lambda e: tuple(np.round(e.q, 9)))
 

@@ -1,4 +1,4 @@
-"""Exact values of ring elements modulo a prime, at an equilibrium, parameters drawn at random.
+"""Exact values of ring elements modulo a prime, with random numbers for what is not given.
 
 What vanishes identically vanishes in every sample; what does not, vanishes in a random sample with a
 probability of about its degree over the prime (J. T. Schwartz, J. ACM 27, 1980; R. Zippel, 1979).
@@ -10,18 +10,13 @@ import math
 from fractions import Fraction
 from functools import cache
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import sympy as sm
 
-from engdyn.algebra.ring import Element
+from engdyn.algebra.ring import Element, Ring
 from engdyn.analysis.slopes import Products
-from engdyn.analysis.small_motion import motion_keys
 from engdyn.errors import EngdynError
-from engdyn.modeling.numbers import input_values, parameter_values
-
-if TYPE_CHECKING:
-    from engdyn.analysis.linear import LinearSystem
 
 __all__ = ["ExactSample", "NoRootError", "primes"]
 
@@ -52,47 +47,35 @@ class ExactSample:
 
     Parameters
     ----------
-    linear : LinearSystem
-        Coordinates, speeds and accelerations are taken as they are.
+    ring : Ring
     seed : int
-        Parameters and inputs that are not zero are random.
+        Of the random numbers.
     prime : int
         Of the form 4 k + 3.
-    zeros_too : bool
-        Parameters and inputs that are zero are random as well.
-    moved : bool
-        The coordinates are random, too.
+
+    Attributes
+    ----------
+    given : dict of key to Fraction
+        Values of independent generators; random where the sample comes to need others.
     """
 
-    def __init__(
-        self, linear: LinearSystem, seed: int, prime: int, zeros_too: bool = False, moved: bool = False
-    ):
-        self._ring, self._source, self._prime, self._moved = linear.eom.ring, Random(seed), prime, moved
-        self._plain = self._given(linear, zeros_too)
+    def __init__(self, ring: Ring, seed: int, prime: int):
+        self.given: dict[tuple[Any, ...], Fraction] = {}
+        self._ring, self._source, self._prime = ring, Random(seed), prime
         self._values: dict[int, int] = {}
 
-    def _given(self, linear: LinearSystem, zeros_too: bool) -> dict[tuple[Any, ...], Fraction]:
-        eom, at = linear.eom, linear.at
-        q_keys, u_keys, a_keys = motion_keys(eom)
-        given: dict[tuple[Any, ...], Fraction] = {
-            ("symbol", sm.pi): self._random()
-        }  # transcendental: any number
-        for key, x in zip([*u_keys, *a_keys, *q_keys], [*at.speeds, *at.accelerations, *at.q], strict=True):
-            given[key] = Fraction(repr(float(x))) if abs(x) > 1e-12 else Fraction(0)
-        if self._moved:
-            given |= {key: self._random(1000) for key in q_keys}
-        for p, x in zip(eom.parameters, parameter_values(eom, at.values), strict=True):
-            given["symbol", p] = self._random() if x or zeros_too else Fraction(0)
-        order = [(w, k) for w in eom.inputs for k in (0, 1, 2)]
-        for (w, k), x in zip(order, input_values(eom, at.inputs, at.values), strict=True):
-            given["function", w, k] = self._random() if x or zeros_too else Fraction(0)
-        return given
+    def random(self, largest: int = 10**6) -> Fraction:
+        """A positive random number with numerator up to `largest`."""
+        return Fraction(self._source.randint(1, largest), self._source.randint(1, 10**6))
+
+    def _plain(self, key: tuple[Any, ...]) -> Fraction:
+        """Value of an independent generator; pi is transcendental, so any number stands for it."""
+        if key not in self.given:
+            self.given[key] = self.random(10**6 if key[0] == "symbol" else 1000)
+        return self.given[key]
 
     def _residue(self, value: Fraction) -> int:
         return value.numerator * pow(value.denominator, -1, self._prime) % self._prime
-
-    def _random(self, largest: int = 10**6) -> Fraction:
-        return Fraction(self._source.randint(1, largest), self._source.randint(1, 10**6))
 
     def sum_of_products(self, products: Products) -> int:
         """Value of a sum of products modulo the prime."""
@@ -125,7 +108,7 @@ class ExactSample:
             definition = self._ring.definitions.get(index)
             key = self._ring.keys[index]
             if definition is None:
-                self._values[index] = self._residue(self._plain.get(key, Fraction(0)))
+                self._values[index] = self._residue(self._plain(key))
             elif definition.kind in ("sine", "cosine"):
                 self._on_circle(key)
             else:
@@ -162,8 +145,6 @@ class ExactSample:
         """An angle in radians: a linear combination of coordinates and the like."""
         total = 0.0
         for exponents, coefficient in self._ring.polynomials.terms(element.numerator):
-            factors = (
-                float(self._plain.get(self._ring.keys[i], 0)) ** e for i, e in enumerate(exponents) if e
-            )
+            factors = (float(self._plain(self._ring.keys[i])) ** e for i, e in enumerate(exponents) if e)
             total += float(coefficient) * math.prod(factors)
         return total

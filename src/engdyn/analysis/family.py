@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.codegen import compile_elements
 from engdyn.algebra.conversion import Converter
 from engdyn.algebra.expressions import as_expression
-from engdyn.analysis.equilibrium import Equilibrium, is_periodic
+from engdyn.analysis.equilibrium import Equilibrium, Region, is_periodic
+from engdyn.analysis.prescribed import evaluated, symbols_in
 from engdyn.analysis.slopes import as_products, compile_products, slopes
 from engdyn.analysis.steady import SteadyProblem
+from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.numbers import mass_and_force
 
 __all__ = ["Curve", "Family", "Point"]
 
+Key = tuple[Any, ...]
 Curve = list[tuple[float, np.ndarray]]
 Point = tuple[float, np.ndarray]
 
@@ -34,18 +38,20 @@ class Family:
         self,
         eom: EquationsOfMotion,
         values: Mapping[str, float],
-        parameter: str,
+        symbol: sm.Symbol,
         interval: tuple[float, float],
         bounds: Mapping[str, tuple[float, float]] | None,
         steady: Mapping[str, Any],
+        region: Region | None = None,
     ):
-        self.eom, self.values, self.parameter, self.interval = eom, dict(values), parameter, interval
-        self.bounds, self.steady = dict(bounds or {}), steady
-        middle = {**values, parameter: 0.5 * (interval[0] + interval[1]) or 0.4321 * interval[1]}
-        symbol = next(p for p in eom.parameters if p.name == parameter)
-        self._driven = self._driven_inputs(symbol)
-        varied = frozenset({("symbol", symbol), *(("function", w, k) for w, k, _ in self._driven)})
-        self.problem = SteadyProblem(eom, middle, keep=varied, **steady)
+        self.eom, self.values, self.parameter, self.interval = eom, dict(values), symbol.name, interval
+        self.bounds, self.steady, self.region = dict(bounds or {}), steady, region
+        middle = 0.5 * (interval[0] + interval[1]) or 0.4321 * interval[1]
+        self._driven = [*self._driven_inputs(symbol), *self._driven_by_hand()]
+        varied = frozenset({("symbol", symbol), *(key for key, _ in self._driven)})
+        self.problem = SteadyProblem(eom, {**values, symbol.name: middle}, keep=varied, **self._at(middle))
+        self._check_free_motion()
+        self._middle = self._bounds_at(middle)
         self.names = self.problem.names
         self.unknowns = self.problem.unknowns
         self.scale = np.array([self._width(u.name) for u in self.unknowns])
@@ -56,18 +62,58 @@ class Family:
         self._compile(symbol)
 
     def _width(self, name: str) -> float:
-        low, high = self.bounds.get(name, (-np.pi, np.pi))
+        low, high = self._middle.get(name, (-np.pi, np.pi))
         return high - low
 
-    def _driven_inputs(self, symbol: Any) -> list[tuple[Any, int, Any]]:
-        """Inputs whose default depends on the parameter (a drive rate Omega): (input, order, expression)."""
+    def fit(self, seeds: Sequence[np.ndarray]) -> None:
+        """Scale unknowns without bounds (a force that is solved for) with what they are at some equilibria."""
+        for i, unknown in enumerate(self.unknowns):
+            largest = max((abs(z[i]) for z in seeds), default=0.0)
+            if unknown.name not in self.bounds and not self.periodic[i] and largest > 1e-6:
+                self.scale[i] = 2 * largest
+
+    def _at(self, at: float) -> dict[str, Any]:
+        """What is prescribed, in numbers, at one value of the parameter."""
+        values = {**self.values, self.parameter: at}
+        return {name: evaluated(given, values, name) for name, given in self.steady.items()}
+
+    def _bounds_at(self, at: float) -> dict[str, tuple[float, float]]:
+        return evaluated(self.bounds, {**self.values, self.parameter: at}, "bounds")
+
+    def _driven_by_hand(self) -> list[tuple[Key, sm.Expr]]:
+        """Inputs, rates and accelerations that are given as expressions in the parameter."""
+        named = {w.func.__name__: w for w in (*self.eom.inputs, *self.eom.coordinates)}
+        found = []
+        for what, first in (("inputs", 0), ("rates", 1), ("accelerations", 2)):
+            for name, given in (self.steady.get(what) or {}).items():
+                parts = given if isinstance(given, tuple | list) else (given,)
+                found += [
+                    (("function", named[name], first + k), part)
+                    for k, part in enumerate(parts)
+                    if name in named and self.parameter in {s.name for s in symbols_in(part)}
+                ]
+        return found
+
+    def _check_free_motion(self) -> None:
+        """Refuse a rate that varies where it prescribes those of other coordinates."""
+        for what in ("rates", "accelerations"):
+            given = self.steady.get(what) or {}
+            implied = [name for name in getattr(self.problem, what) if name not in given]
+            if implied and any(self.parameter in {s.name for s in symbols_in(x)} for x in given.values()):
+                raise EngdynError(
+                    f"{what} that follow {self.parameter} also prescribe those of {', '.join(implied)}, which "
+                    "move along: prescribe one of them by a number, or vary another parameter"
+                )
+
+    def _driven_inputs(self, symbol: Any) -> list[tuple[Key, sm.Expr]]:
+        """Inputs whose default depends on the parameter (a drive rate Omega)."""
         given = dict(self.steady.get("inputs") or {})
         found = []
         for w, triple in self.eom.defaults.items():
             if w.func.__name__ not in given:
                 symbols = [as_expression(e).free_symbols for e in triple]
                 found += [
-                    (w, k, triple[k])
+                    (("function", w, k), triple[k])
                     for k in (1, 2)
                     if symbol in symbols[k] and dynamicsymbols._t not in symbols[k]
                 ]
@@ -76,7 +122,7 @@ class Family:
     def _compile(self, symbol: Any) -> None:
         """F, ∂F/∂z and dF/dλ as one compiled function of (z, λ, driven inputs)."""
         problem, ring = self.problem, self.problem.ring
-        varied = [("symbol", symbol), *(("function", w, k) for w, k, _ in self._driven)]
+        varied = [("symbol", symbol), *(key for key, _ in self._driven)]
         n = len(self.unknowns)
         entries = [as_products(row) for row in problem.rows]
         by_row = [slopes(ring, row, [*(u.key for u in self.unknowns), *varied]) for row in problem.rows]
@@ -86,11 +132,13 @@ class Family:
         self._compiled = compile_products(
             entries, [*(u.key for u in self.unknowns), *varied, *constants], "math"
         )
-        defaults = [e for _, _, e in self._driven]
-        rates = [e.diff(symbol) for e in defaults]
-        others = [p for e in (*defaults, *rates) for p in e.free_symbols if p != symbol]
+        driven = [
+            e.xreplace({s: symbol for s in e.free_symbols if s.name == symbol.name}) for _, e in self._driven
+        ]
+        rates = [e.diff(symbol) for e in driven]
+        others = [p for e in (*driven, *rates) for p in e.free_symbols if p != symbol]
         numbers = {p: self.values[p.name] for p in others if p.name in self.values}
-        expressions = [e.xreplace(numbers) for e in (*defaults, *rates)]
+        expressions = [e.xreplace(numbers) for e in (*driven, *rates)]
         converter = Converter(expressions, [("symbol", symbol)])
         self._driving = compile_elements(
             [converter.convert(e) for e in expressions], [("symbol", symbol)], "math"
@@ -120,13 +168,16 @@ class Family:
         slack = 1e-9 * (high - low)
         if not low - slack <= at <= high + slack:
             return False
+        bounds = self._bounds_at(at)
         for unknown, value, periodic in zip(self.unknowns, z, self.periodic, strict=True):
-            if unknown.name in self.bounds and not periodic:
-                least, greatest = self.bounds[unknown.name]
+            if unknown.name in bounds and not periodic:
+                least, greatest = bounds[unknown.name]
                 edge = 1e-9 * (greatest - least)
                 if not least - edge <= value <= greatest + edge:
                     return False
-        return True
+        return self.region is None or self.region(
+            self.coordinates(z, at), {**self.values, self.parameter: at}
+        )
 
     def unknown_part(self, equilibrium: Equilibrium) -> np.ndarray:
         """The unknowns of a found equilibrium, in the order of this family."""
@@ -149,9 +200,12 @@ class Family:
         named |= {u.name: float(x) for (u, _), x in zip(problem.eliminated, tied, strict=True)}
         owners = [u.expr.func.__name__ if u.is_Derivative else u.func.__name__ for u in self.eom.speeds]
         q = np.array([named.get(n, 0.0) for n in self.names])
-        speeds = np.array([named.get(f"{n}_d", float(problem.rates.get(n, 0))) for n in owners])
-        udot = np.array([named.get(f"{n}_dd", float(problem.accelerations.get(n, 0))) for n in owners])
-        inputs = dict(self.steady.get("inputs") or {})
+        given = self._at(at)
+        rates = {**problem.rates, **(given["rates"] or {})}
+        gains = {**problem.accelerations, **(given["accelerations"] or {})}
+        speeds = np.array([named.get(f"{n}_d", float(rates.get(n, 0))) for n in owners])
+        udot = np.array([named.get(f"{n}_dd", float(gains.get(n, 0))) for n in owners])
+        inputs = dict(given["inputs"] or {})
         inputs |= {key[1].func.__name__: named[key[1].func.__name__] for key in problem.free}
         values = {**self.values, self.parameter: at}
         mass, force = mass_and_force(self.eom, q, speeds, values, inputs)

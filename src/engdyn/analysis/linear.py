@@ -103,7 +103,8 @@ def linearize(
     Returns
     -------
     LinearSystem
-        Arrays, or sympy matrices where `symbolic`.
+        Arrays, or sympy matrices where `symbolic`. Where the coordinates fail at an equilibrium that
+        knows others (a pitch of 90 degrees), small motion is described in these.
 
     Raises
     ------
@@ -117,6 +118,9 @@ def linearize(
     if not isinstance(eom, EquationsOfMotion):
         raise EngdynError(f"eom is {eom!r}: give EquationsOfMotion, for example system.lagrange()")
     state = _state_at(eom, at)
+    if isinstance(at, Equilibrium) and at.regular is not None:
+        eom, at = at.regular
+        state = _state_at(eom, at)
     given = inputs if inputs is not None else (at.inputs if isinstance(at, Equilibrium) else {})
     if symbolic:
         matrices = symbolic_matrices(eom, state, given)

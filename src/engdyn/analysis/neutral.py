@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import Any
+
+from sympy.physics.vector import dynamicsymbols
 
 from engdyn.analysis.exact_sample import ExactSample, NoRootError, primes
 from engdyn.analysis.linear import LinearSystem
-from engdyn.analysis.small_motion import small_motion
-from engdyn.errors import EngdynError
+from engdyn.analysis.residues import Matrix, solve, trailing_zeros
+from engdyn.analysis.small_motion import motion_keys, small_motion
 from engdyn.modeling.numbers import input_values, parameter_values
 
 __all__ = ["neutral_eigenvalues"]
-
-Matrix = list[list[int]]
 
 ATTEMPTS = 60
 """Samples that are tried; half of all radicands have a root modulo a prime."""
@@ -48,11 +49,34 @@ def _zeros(linear: LinearSystem, seed: int, **choices: bool) -> int:
     for attempt in range(1, ATTEMPTS):
         prime = primes(attempt)[-1]
         try:
-            sample = ExactSample(linear, ATTEMPTS * seed + attempt, prime, **choices)
-            return _trailing_zeros(_state_matrix(linear, sample, prime), prime)
+            sample = _sample(linear, ATTEMPTS * seed + attempt, prime, **choices)
+            return trailing_zeros(_state_matrix(linear, sample, prime), prime)
         except NoRootError:
             continue
     return 0  # not counted: the verdict then judges all eigenvalues and says marginal
+
+
+def _sample(
+    linear: LinearSystem, seed: int, prime: int, zeros_too: bool = False, moved: bool = False
+) -> ExactSample:
+    """Coordinates, speeds and accelerations of the state, parameters and inputs at random.
+
+    Those that are zero stay zero unless `zeros_too`; the coordinates are random, too, where `moved`.
+    """
+    eom, at = linear.eom, linear.at
+    sample = ExactSample(eom.ring, seed, prime)
+    q_keys, u_keys, a_keys = motion_keys(eom)
+    for key, x in zip([*u_keys, *a_keys, *q_keys], [*at.speeds, *at.accelerations, *at.q], strict=True):
+        sample.given[key] = Fraction(repr(float(x))) if abs(x) > 1e-12 else Fraction(0)
+    if moved:
+        sample.given |= {key: sample.random(1000) for key in q_keys}
+    named = [("symbol", p) for p in eom.parameters]
+    named += [("function", w, k) for w in eom.inputs for k in (0, 1, 2)]
+    numbers = [*parameter_values(eom, at.values), *input_values(eom, at.inputs, at.values)]
+    for key, x in zip(named, numbers, strict=True):
+        sample.given[key] = sample.random() if x or zeros_too else Fraction(0)
+    sample.given["symbol", dynamicsymbols._t] = Fraction(0)
+    return sample
 
 
 def _state_matrix(linear: LinearSystem, sample: ExactSample, prime: int) -> Matrix:
@@ -62,51 +86,6 @@ def _state_matrix(linear: LinearSystem, sample: ExactSample, prime: int) -> Matr
     numbers: dict[str, Any] = {
         name: [[sample.sum_of_products(entry) for entry in row] for row in blocks[name]] for name in needed
     }
-    lower = _solve(numbers["M"], [[*k, *c] for k, c in zip(numbers["K"], numbers["C"], strict=True)], prime)
+    lower = solve(numbers["M"], [[*k, *c] for k, c in zip(numbers["K"], numbers["C"], strict=True)], prime)
     upper = [[*a, *b] for a, b in zip(numbers["Gq"], numbers["G"], strict=True)]
     return [*upper, *([-x % prime for x in row] for row in lower)]
-
-
-def _solve(matrix: Matrix, right: Matrix, prime: int) -> Matrix:
-    """Gauss–Jordan elimination modulo the prime."""
-    n = len(matrix)
-    rows = [[*a, *b] for a, b in zip(matrix, right, strict=True)]
-    for column in range(n):
-        pivot = next((i for i in range(column, n) if rows[i][column]), None)
-        if pivot is None:
-            raise EngdynError("singular mass matrix: stability cannot be judged there")
-        rows[column], rows[pivot] = rows[pivot], rows[column]
-        inverse = pow(rows[column][column], -1, prime)
-        rows[column] = [x * inverse % prime for x in rows[column]]
-        for i in range(n):
-            factor = rows[i][column]
-            if i != column and factor:
-                rows[i] = [(x - factor * y) % prime for x, y in zip(rows[i], rows[column], strict=True)]
-    return [row[n:] for row in rows]
-
-
-def _trailing_zeros(matrix: Matrix, prime: int) -> int:
-    """How often λ divides the characteristic polynomial: n − rank(Aⁿ)."""
-    n, power, rank = len(matrix), matrix, _rank(matrix, prime)
-    while True:
-        columns = list(zip(*power, strict=True))
-        power = [[sum(map(int.__mul__, row, column)) % prime for column in columns] for row in power]
-        if (lower := _rank(power, prime)) == rank:
-            return n - rank
-        rank = lower
-
-
-def _rank(matrix: Matrix, prime: int) -> int:
-    rows, rank = [list(row) for row in matrix], 0
-    for column in range(len(matrix)):
-        pivot = next((i for i in range(rank, len(rows)) if rows[i][column]), None)
-        if pivot is None:
-            continue
-        rows[rank], rows[pivot] = rows[pivot], rows[rank]
-        inverse = pow(rows[rank][column], -1, prime)
-        for i in range(rank + 1, len(rows)):
-            factor = rows[i][column] * inverse % prime
-            if factor:
-                rows[i] = [(x - factor * y) % prime for x, y in zip(rows[i], rows[rank], strict=True)]
-        rank += 1
-    return rank

@@ -8,6 +8,7 @@ from fractions import Fraction
 from numbers import Real
 from typing import Any
 
+import sympy as sm
 from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.expressions import as_expression
@@ -15,7 +16,7 @@ from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.numbers import input_values, parameter_values
 
-__all__ = ["as_rational", "by_coordinate", "free_inputs", "known_numbers"]
+__all__ = ["as_rational", "by_coordinate", "evaluated", "free_inputs", "known_numbers", "symbols_in"]
 
 Key = tuple[Any, ...]
 
@@ -23,6 +24,51 @@ Key = tuple[Any, ...]
 def as_rational(value: float) -> Fraction:
     """A float as the rational of its shortest decimal."""
     return Fraction(repr(float(value)))
+
+
+def evaluated(given: Any, values: Mapping[str, float], what: str) -> Any:
+    """What is given, with numbers in place of expressions in the parameters.
+
+    Parameters
+    ----------
+    given : mapping of str to number, expression, or sequence of these
+        Anything else is returned as it is, for others to refuse.
+    values : mapping of str to float
+        Parameters by name [SI].
+    what : str
+        "rates", "bounds", ... for messages.
+
+    Raises
+    ------
+    EngdynError
+        An expression that is no finite real number with these values.
+    """
+    if not isinstance(given, Mapping):
+        return given
+    return {name: _evaluated(x, values, f"{what}[{name!r}]") for name, x in given.items()}
+
+
+def _evaluated(value: Any, values: Mapping[str, float], what: str) -> Any:
+    if isinstance(value, tuple | list):
+        return tuple(_evaluated(part, values, what) for part in value)
+    if not isinstance(value, sm.Expr):
+        return value
+    known = {s: sm.Float(values[s.name]) for s in value.free_symbols if s.name in values}
+    number = value.xreplace(known)
+    if not (number.is_number and number.is_real and number.is_finite):
+        raise EngdynError(
+            f"{what} is {value}, which reads {number} here: give an expression in parameters with values"
+        )
+    return float(number)
+
+
+def symbols_in(given: Any) -> set[sm.Symbol]:
+    """Symbols of all expressions in a number, an expression, or nested mappings and sequences of these."""
+    if isinstance(given, Mapping):
+        given = tuple(given.values())
+    if isinstance(given, tuple | list):
+        return {s for part in given for s in symbols_in(part)}
+    return set(given.free_symbols) if isinstance(given, sm.Expr) else set()
 
 
 def by_coordinate(names: Sequence[str], given: Mapping[str, float] | None, what: str) -> dict[str, Fraction]:

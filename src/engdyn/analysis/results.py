@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from engdyn.analysis.enclosure import Certificate
+
+if TYPE_CHECKING:
+    from engdyn.modeling.equations import EquationsOfMotion
 
 __all__ = ["Equilibrium", "EquilibriumSet"]
 
@@ -34,6 +37,9 @@ class Equilibrium:
         Largest magnitude of M u̇ − f there: zero up to rounding [N, N m].
     names : tuple of str
         Names of the coordinates.
+    regular : (EquationsOfMotion, Equilibrium), optional
+        The same state in coordinates that are regular there, with their equations, where `q` is a
+        coordinate singularity: small motion is described in these.
     """
 
     q: np.ndarray
@@ -43,6 +49,7 @@ class Equilibrium:
     values: dict[str, float]
     residual: float
     names: tuple[str, ...]
+    regular: tuple[EquationsOfMotion, Equilibrium] | None = field(default=None, repr=False)
 
     def __repr__(self) -> str:
         parts = [f"{name} = {_digits(x)}" for name, x in zip(self.names, self.q, strict=True)]

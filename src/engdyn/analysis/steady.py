@@ -53,7 +53,8 @@ class SteadyProblem:
     eom, values, inputs, rates, accelerations, free :
         As in :func:`engdyn.equilibria`.
     keep : set of tuple
-        Keys of generators to keep as symbols (a parameter to be varied).
+        Keys of generators to keep as symbols: a parameter to be varied, and rates, accelerations and
+        inputs that vary with it.
 
     Attributes
     ----------
@@ -86,6 +87,7 @@ class SteadyProblem:
         self.free = free_inputs(eom, free)
         self.values, self.inputs = values, dict(inputs or {})
         held = {*self.free, *keep}
+        self._keep = keep
         self._numbers = {k: v for k, v in known_numbers(eom, values, self.inputs).items() if k not in held}
         self.unknowns: list[Unknown] = []
         self.eliminated: list[tuple[Unknown, Element]] = []
@@ -110,7 +112,9 @@ class SteadyProblem:
         rows, tied = self._tied(rows, keys)
         motion, open_speeds = self._motion(rows, keys, tied)
         self._check_steady(rows, motion, tied)
-        rows = self._with_numbers(rows, motion)
+        fixed = {k: x for k, x in motion.items() if k not in self._keep}
+        rows = self._with_numbers(rows, fixed)
+        self.constants |= {ring.keys[i]: x for i, x in self._indexed(fixed).items() if i in self._inner}
         known = {**self._indexed(self._numbers), **self._indexed(motion)}
         self._sizes = [size(row, known) for row in raw]
         self._labels = list(range(1, len(rows) + 1))
@@ -231,7 +235,7 @@ class SteadyProblem:
                 )
 
     def _check_time(self) -> None:
-        known = {*(u.key for u in self.unknowns), *self.constants}
+        known = {*(u.key for u in self.unknowns), *self.constants, *self._keep}
         moving = {
             str(key[1])
             for key in self.contents(self.rows)
@@ -277,17 +281,22 @@ class SteadyProblem:
             index = self.ring.index.get(unknown.key)
             if index is None or index in inner:
                 continue
-            factors = [self.ring.partial(unknown.key)(row).as_rational() for row in self.rows]
+            slopes = [self.ring.partial(unknown.key)(row) for row in self.rows]
+            factors = [self._number(slope) for slope in slopes]
             at = next((i for i, factor in enumerate(factors) if factor), None)
             if at is not None:
-                self._replace(unknown, at, factors)
+                self._replace(unknown, at, slopes[at], factors)
                 return True
         return False
 
-    def _replace(self, unknown: Unknown, at: int, factors: Sequence[Fraction | None]) -> None:
+    def _number(self, element: Element) -> Fraction | None:
+        """The value of an element in which nothing is unknown, whatever stands in angles and functions too."""
+        return element.specialize(self._indexed(self.constants)).as_rational()
+
+    def _replace(self, unknown: Unknown, at: int, slope: Element, factors: Sequence[Fraction | None]) -> None:
         """Solve row `at` for an unknown and put the solution everywhere."""
         factor, added = Fraction(factors[at] or 1), self._sizes[at]
-        solution = self.ring.generator(unknown.key) - self.rows[at] * (1 / factor)
+        solution = self.ring.generator(unknown.key) - self.rows[at] / slope
         images = {self.ring.index[unknown.key]: solution}
         rest = [i for i in range(len(self.rows)) if i != at]
         self._sizes = [self._sizes[i] + added * abs((factors[i] or 0) / factor) for i in rest]

@@ -20,6 +20,7 @@ from engdyn.analysis.results import Equilibrium
 from engdyn.analysis.stability import stability
 from engdyn.errors import EngdynError
 from engdyn.modeling.equality import prove_equal
+from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.instants import components, motion_at, rotation_matrix
 from engdyn.modeling.kinematic_chain import KinematicChain
 from engdyn.modeling.lagrange import lagrange
@@ -148,8 +149,9 @@ def equilibria(system: System, corrupt: bool) -> str:
     if not len(found):
         raise CheckFailure("no equilibrium found in the region")
     for number, state in enumerate(found, 1):
-        moved = _moved(state, found.neutral) if corrupt else state
-        _compare_accelerations(system, moved, f"equilibrium {number}")
+        eom, regular = state.regular or (system.equations, state)
+        moved = _moved(regular, found.neutral) if corrupt else regular
+        _compare_accelerations(eom, moved, f"equilibrium {number}")
     kept = {tuple(np.round(state.q, 9)) + tuple(np.round(state.speeds, 9)) for state in found}
     if len(kept) != len(found):
         raise CheckFailure("an equilibrium is listed twice")
@@ -164,9 +166,8 @@ def _moved(state: Equilibrium, neutral: Any) -> Equilibrium:
     return replace(state, q=q)
 
 
-def _compare_accelerations(system: System, state: Equilibrium, what: str) -> None:
+def _compare_accelerations(eom: EquationsOfMotion, state: Equilibrium, what: str) -> None:
     """Compare u̇ of the equations with that of the state, on the scale of what one percent of a radian does."""
-    eom = system.equations
 
     def at(q: np.ndarray) -> np.ndarray:
         return eom.accelerations(q, state.speeds, state.values, state.inputs)
@@ -200,7 +201,8 @@ def small_motion(system: System, corrupt: bool) -> str:
 
 def _slopes(system: System, state: Equilibrium) -> np.ndarray:
     """∂ẋ/∂x by central differences whose steps are halved once (Richardson), shape (n + m, n + m)."""
-    derivative = system.equations.function(state.values)
+    eom, state = state.regular or (system.equations, state)
+    derivative = eom.function(state.values)
     x = np.concatenate([state.q, state.speeds])
 
     def columns(size: float) -> Iterator[np.ndarray]:

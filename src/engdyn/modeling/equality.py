@@ -71,7 +71,8 @@ class Proof:
         if not self.differences:
             return text
         rows = "".join(_html_row(difference) for difference in self.differences[:SHOWN])
-        heads = "".join(f'<th style="text-align:left">{head}</th>' for head in ("equation", "your term", "should be", "remark"))
+        columns = ("equation", "your term", "should be", "remark")
+        heads = "".join(f'<th style="text-align:left">{head}</th>' for head in columns)
         more = len(self.differences) - SHOWN
         rest = f"and {more} more: the equations have little in common" if more > 0 else ""
         return f"{text}<table><tr>{heads}</tr>{rows}</table>{rest}"

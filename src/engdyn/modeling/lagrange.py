@@ -114,10 +114,8 @@ def lagrange(
     -g*l*m*sin(theta(t))
     """
     coordinates = check_coordinates(coordinates)
-    kinetic, potential, dissipation = (
-        _energy(e, name)
-        for e, name in ((kinetic, "kinetic"), (potential, "potential"), (dissipation, "dissipation"))
-    )
+    kinetic, potential = _energy(kinetic, "kinetic"), _energy(potential, "potential")
+    dissipation = _energy(dissipation, "dissipation")
     forces = _forces(forces, coordinates)
     constraints = tuple(constraints)
     rates: dict[sm.Expr, sm.Expr] = {}

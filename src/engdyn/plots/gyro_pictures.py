@@ -178,41 +178,51 @@ def gyroscope(
             f"gyroscope: nutation {nutation!r} lies between 0 and pi, azimuth {azimuth!r} is finite, post {post!r} "
             "is not negative."
         )
-    across = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
-    axis = np.array(
-        [math.sin(nutation) * math.cos(azimuth), math.sin(nutation) * math.sin(azimuth), math.cos(nutation)]
-    )
-    other = np.cross(axis, across)
-    origin, end = (0.0, 0.0, 0.0), tuple(2.1 * axis)
-    pillar = [sh.Link((0.0, 0.0, -post), origin)] if post else []
-    discs = [
-        sh.Disc(tuple(along * axis), 0.6, x_axis=tuple(across), y_axis=tuple(other)) for along in (0.92, 1.08)
-    ]
-    drawn = [
-        sh.Disc((0.0, 0.0, -post), 0.8, role="ground"),
-        *pillar,
-        sh.Link(origin, tuple(0.92 * axis)),
-        *discs,
-        sh.Curve((tuple(1.08 * axis), tuple(1.5 * axis)), role="joint"),
-        sh.Pin(origin, "$O$"),
-        sh.CenterLine(origin, (0.0, 0.0, 1.5)),
-        sh.MomentArrow(
-            tuple(1.3 * axis), 0.3, -2.4, 2.4, x_axis=tuple(across), y_axis=tuple(other), role="momentum"
-        ),
-        sh.VectorArrow(tuple(1.5 * axis), end, "$H$", double=True, role="momentum"),
-        sh.VectorArrow(
-            end, tuple(np.array(end) + 0.7 * across), r"$M\,\mathrm{d}t$", double=True, role="force"
-        ),
-        sh.VectorArrow(origin, tuple(1.1 * across), "$M$", double=True, role="force"),
-        sh.VectorArrow(tuple(axis), tuple(axis + (0.0, 0.0, -0.95)), "$m\\,g$", role="force"),
-        sh.VectorArrow((0.0, 0.0, 1.5), (0.0, 0.0, 2.2), r"$\Omega$", double=True),
-    ]
+    drawn = [*_top(nutation, azimuth, post), *_top_vectors(nutation, azimuth)]
     told = (
         f"A top whose axis leans {math.degrees(nutation):.0f}° from the vertical: its angular momentum H lies along "
         "the axis, the moment M of its weight is horizontal and square to it; H moves toward M, so the axis precesses "
         f"about the vertical at the rate Omega. {words}"
     )
     return sketch(drawn, told.strip(), view=view)
+
+
+def _top_axes(nutation: float, azimuth: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Unit vectors along the axis of a top, and level and square to it: where the moment of the weight points."""
+    across = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
+    level = math.sin(nutation) * np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
+    return level + [0.0, 0.0, math.cos(nutation)], across
+
+
+def _top(nutation: float, azimuth: float, post: float) -> list[sh.Shape]:
+    """The body of a top with its spin, its tip and the floor below."""
+    axis, across = _top_axes(nutation, azimuth)
+    other, tip = np.cross(axis, across), (0.0, 0.0, 0.0)
+    faces = {"x_axis": tuple(across), "y_axis": tuple(other)}
+    return [
+        sh.Disc((0.0, 0.0, -post), 0.8, role="ground"),
+        *([sh.Link((0.0, 0.0, -post), tip)] if post else []),
+        sh.Link(tip, tuple(0.92 * axis)),
+        *(sh.Disc(tuple(along * axis), 0.6, **faces) for along in (0.92, 1.08)),
+        sh.Curve((tuple(1.08 * axis), tuple(1.5 * axis)), role="joint"),
+        sh.Pin(tip, "$O$"),
+        sh.CenterLine(tip, (0.0, 0.0, 1.5)),
+        sh.MomentArrow(tuple(1.3 * axis), 0.3, -2.4, 2.4, role="momentum", **faces),
+    ]
+
+
+def _top_vectors(nutation: float, azimuth: float) -> list[sh.Shape]:
+    """Angular momentum, moment and what it adds, weight, precession."""
+    axis, across = _top_axes(nutation, azimuth)
+    tip, end = (0.0, 0.0, 0.0), 2.1 * axis
+    added = tuple(end + 0.7 * across)
+    return [
+        sh.VectorArrow(tuple(1.5 * axis), tuple(end), "$H$", double=True, role="momentum"),
+        sh.VectorArrow(tuple(end), added, r"$M\,\mathrm{d}t$", double=True, role="force"),
+        sh.VectorArrow(tip, tuple(1.1 * across), "$M$", double=True, role="force"),
+        sh.VectorArrow(tuple(axis), tuple(axis - [0.0, 0.0, 0.95]), "$m\\,g$", role="force"),
+        sh.VectorArrow((0.0, 0.0, 1.5), (0.0, 0.0, 2.2), r"$\Omega$", double=True),
+    ]
 
 
 def sphere_paths(

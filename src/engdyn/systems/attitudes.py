@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from engdyn.analysis.boxes import Box
 from engdyn.analysis.enclosure import Certificate
 from engdyn.analysis.equilibrium import equilibria
 from engdyn.analysis.results import Equilibrium, EquilibriumSet
@@ -24,7 +25,14 @@ from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.numbers import mass_and_force
 from engdyn.system import System
 
-__all__ = ["AttitudeSystem", "SequenceCertificates", "angles_231", "angles_321", "matrix_231", "matrix_321"]
+__all__ = [
+    "AttitudeSystem",
+    "SequenceCertificates",
+    "angles_231",
+    "angles_321",
+    "matrix_231",
+    "matrix_321",
+]
 
 PITCH = 1.4
 """Bound of the middle angle of the first search [rad]."""
@@ -95,9 +103,24 @@ class SequenceCertificates:
         return all(c.certified for c in self.sequences)
 
     @property
-    def undecided(self) -> tuple:
+    def accepted(self) -> tuple[Box, ...]:
+        """Boxes of either sequence that hold exactly one equilibrium; some are found in both."""
+        return tuple(box for c in self.sequences for box in c.accepted)
+
+    @property
+    def rejected(self) -> tuple[Box, ...]:
+        """Boxes of either sequence that hold none."""
+        return tuple(box for c in self.sequences for box in c.rejected)
+
+    @property
+    def undecided(self) -> tuple[Box, ...]:
         """Boxes of either sequence about which nothing is claimed."""
         return tuple(box for c in self.sequences for box in c.undecided)
+
+    @property
+    def roots(self) -> tuple[Box, ...]:
+        """Enclosures of what either sequence found, in its own angles."""
+        return tuple(box for c in self.sequences for box in c.roots)
 
     @property
     def examined(self) -> int:
@@ -137,21 +160,22 @@ class AttitudeSystem(System):
 
         Notes
         -----
-        Where pitch is ±90 degrees, yaw and roll are one angle: roll is reported as zero, and the equations of
-        motion must be linearized in other coordinates; see :meth:`regular`.
+        Where pitch is ±90 degrees, yaw and roll are one angle: roll is reported as zero, and small motion is
+        described in other coordinates; see :meth:`regular`.
         """
-        complete, steady = self._question(values, inputs)
+        complete, question = self._question(values, inputs)
         found, certificates = [], []
         for eom, bound in zip(self.charts, (PITCH, SECOND), strict=True):
             first, middle, last = (q.func.__name__ for q in eom.coordinates)
             bounds = {first: (-pi, pi), middle: (-bound, bound), last: (-pi, pi)}
-            found.append(equilibria(eom, complete, bounds, inputs, **steady))
+            found.append(equilibria(eom, complete, **(question | {"bounds": bounds})))
             certificates.append(found[-1].certificate)
         items = [_moved(e, self.equations, e.q) for e in found[0]]
         for item in (self._in_321(e) for e in found[1]):
             R = matrix_321(item.q)
             if all(np.max(np.abs(R - matrix_321(other.q))) > SAME for other in items):
                 items.append(item)
+        items = [self._with_regular(e) for e in items]
         items.sort(key=lambda e: tuple(np.round(e.q, 9)))
         certificate = None if None in certificates else SequenceCertificates(tuple(certificates))
         return replace(found[0], items=tuple(items), certificate=certificate)
@@ -167,12 +191,19 @@ class AttitudeSystem(System):
         Returns
         -------
         EquationsOfMotion, Equilibrium
-            Ready for :func:`engdyn.linearize`; yaw, pitch and roll where these do.
+            In yaw, pitch and roll where these do. :func:`engdyn.linearize` asks for it by itself.
         """
         if abs(sin(equilibrium.q[1])) <= sin(PITCH):
             return self.equations, equilibrium
         eom = self.charts[1]
         return eom, _moved(equilibrium, eom, angles_231(matrix_321(equilibrium.q)))
+
+    def _with_regular(self, e: Equilibrium) -> Equilibrium:
+        """The equilibrium, with other coordinates at hand where its own fail."""
+        eom, other = self.regular(e)
+        if other is e:
+            return e
+        return replace(e, regular=(eom, other))
 
     def _in_321(self, equilibrium: Equilibrium) -> Equilibrium:
         return _moved(equilibrium, self.equations, angles_321(matrix_231(equilibrium.q)))
