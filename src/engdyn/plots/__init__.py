@@ -8,6 +8,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
         "alternative": ["alt", "show"],
+        "animation": ["animate"],
         "charts": ["flow_chart"],
         "drawing": ["draw", "sketch"],
         "ellipsoid_picture": ["equivalent_ellipsoid"],
@@ -18,6 +19,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "projection": ["View"],
         "free_body_diagram": ["free_body"],
         "look": ["style"],
+        "motion": ["mode_motion"],
         "gyro_pictures": ["bicycle", "gyroscope", "precession_cones", "sphere_paths"],
         "newton_pictures": ["curves", "regions"],
     },

@@ -1,4 +1,5 @@
 from .alternative import alt, show
+from .animation import animate
 from .charts import flow_chart
 from .drawing import draw, sketch
 from .ellipsoid_picture import equivalent_ellipsoid
@@ -9,6 +10,7 @@ from .gyro_pictures import bicycle, gyroscope, precession_cones, sphere_paths
 from .inertia_pictures import inertia_terms
 from .kinematic_pictures import acceleration_terms, kinematic_chain, orientations, vector_change
 from .look import style
+from .motion import mode_motion
 from .newton_pictures import curves, regions
 from .projection import View
 
@@ -16,6 +18,7 @@ __all__ = [
     "View",
     "acceleration_terms",
     "alt",
+    "animate",
     "bicycle",
     "branches",
     "curves",
@@ -27,6 +30,7 @@ __all__ = [
     "gyroscope",
     "inertia_terms",
     "kinematic_chain",
+    "mode_motion",
     "orientations",
     "potential_energy",
     "precession_cones",

@@ -87,7 +87,7 @@ def steady(values: Mapping[str, float], inputs: Mapping[str, Any]) -> dict[str, 
 def shapes(q: list[float], values: dict[str, float]) -> list:
     """View from above, bearing O at the origin; sizes are fractions of the larger of s_0 and e."""
     theta, s, e, s_0 = q[0], q[1], values["e"], values["s_0"]
-    u = max(abs(s_0), 2.0 * abs(e), 1e-3)
+    O, u = (0.0, 0.0), max(abs(s_0), 2.0 * abs(e), 1e-3)
     rim = max(2.1 * u, hypot(s, e) + 0.7 * u)
 
     def on_table(x: float, y: float) -> tuple[float, float]:
@@ -109,21 +109,20 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
         sh.Label(slot(0.5 * (end + s + half), -wide), "$c_s$", on_table(0.0, -1.0)),
         sh.Box(slot(s), (2.0 * half, 2.6 * half), angle=theta, label="$m$"),
         sh.ForceArrow(slot(s + half, 1.2 * half), slot(s + half + 0.5 * u, 1.2 * half), "$F$"),
-        sh.CenterLine((0.0, 0.0), (1.2 * rim, 0.0), "$X$", arrow=True),
+        sh.CenterLine(O, (1.2 * rim, 0.0), "$X$", arrow=True),
         sh.CenterLine(on_table(start - 0.4 * u, 0.0), on_table(1.2 * rim, 0.0), "$x'$", arrow=True),
         sh.CenterLine(on_table(0.0, -0.25 * u), on_table(0.0, 1.15 * rim), "$y'$", arrow=True),
-        sh.AngleArrow((0.0, 0.0), 1.08 * rim, 0.0, theta, r"$\theta$"),
-        sh.TorsionalDamper((0.0, 0.0), 0.6 * u, 0.0, theta, "$c_t$"),
+        sh.AngleArrow(O, 1.08 * rim, 0.0, theta, r"$\theta$"),
+        sh.TorsionalDamper(O, 0.6 * u, 0.0, theta, "$c_t$"),
         sh.CoordinateArrow(slot(0.0, 0.55 * u), slot(s, 0.55 * u), "$s$", positive=on_table(1.0, 0.0)),
         sh.Dimension(slot(0.0, 0.95 * u), slot(s_0, 0.95 * u), "$s_0$"),
         sh.CenterLine(slot(start), slot(start - 0.4 * u)),
         sh.Dimension(on_table(start - 0.25 * u, 0.0), slot(start - 0.25 * u), "$e$"),
         sh.Label(on_table(0.2 * rim, -0.75 * rim), "$J$"),
-        sh.MomentArrow((0.0, 0.0), 0.42 * u, theta + 1.15 * pi, theta + 1.7 * pi, "$M$"),
-        sh.MomentArrow(
-            (0.0, 0.0), 0.88 * rim, theta + 1.15 * pi, theta + 1.35 * pi, r"$\Omega$", role="reference"
-        ),
-        sh.Pin((0.0, 0.0), "$O$"),
+        sh.MomentArrow(O, 0.42 * u, theta + 1.15 * pi, theta + 1.7 * pi, "$M$"),
+        sh.MomentArrow(O, 0.88 * rim, theta + 1.15 * pi, theta + 1.35 * pi, r"$\Omega$", role="reference"),
+        sh.Pin(O),
+        sh.Label(on_table(-0.1 * u, -0.08 * u), "$O$", on_table(-0.7, -1.0), "reference"),
     ]
 
 

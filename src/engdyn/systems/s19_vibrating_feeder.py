@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import cos, sin
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import sympy as sm
 from sympy.physics.mechanics import (
@@ -21,10 +21,6 @@ from engdyn import shapes as sh
 from engdyn.modeling.newton import FreeBody
 from engdyn.quantities import Coordinate, Input, Parameter
 from engdyn.system import System
-
-if TYPE_CHECKING:
-    from engdyn.analysis.branches import BranchSet
-    from engdyn.analysis.results import EquilibriumSet
 
 PARAMETERS = (
     Parameter("m", "kg", 280.0, "trough mass"),
@@ -149,7 +145,7 @@ def _exciter(E: tuple, r_u: float, u: float) -> list:
         sh.Link(E, mass, role="joint"),
         sh.Particle(mass),
         sh.MomentArrow(E, 1.7 * ring, 0.0, 0.9, r"$\Omega t$", role="reference"),
-        sh.Label(mass, "$m_u,\\ r_u$", (0.4, 1.0)),
+        sh.Label(mass, "$m_u,\\ r_u$", (1.0, 1.0)),
         sh.Pin(E),
     ]
 
@@ -181,25 +177,9 @@ def _mount(point: tuple, relaxed: tuple, u: float, outward: float, stiffness: st
     ]
 
 
-AT_REST = {"drive": (0.0, 0.0, 0.0)}
-
-
-class Feeder(System):
-    """A System whose equilibria are mean positions, in which the weight that turns averages out."""
-
-    def equilibria(self, values: Mapping[str, float] | None = None, **inputs: Any) -> EquilibriumSet:
-        """All mean positions: those with the exciter at rest."""
-        return super().equilibria(values, **(AT_REST | inputs))
-
-    def branches(
-        self,
-        parameter: str,
-        range: tuple[float, float],
-        values: Mapping[str, float] | None = None,
-        **inputs: Any,
-    ) -> BranchSet:
-        """Mean positions over one parameter."""
-        return super().branches(parameter, range, values, **(AT_REST | inputs))
+def steady(values: Mapping[str, float], inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """Mean positions, in which the weight that turns averages out: those with the exciter at rest."""
+    return {"inputs": {"drive": (0.0, 0.0, 0.0)}}
 
 
 def _energies() -> dict[str, Any]:
@@ -223,7 +203,7 @@ def _energies() -> dict[str, Any]:
 def build() -> System:
     """The feeder as a System."""
     turning = (Omega * dynamicsymbols._t, Omega, sm.S.Zero)
-    return Feeder(
+    return System(
         number=19,
         key="vibrating_feeder",
         title="Vibrating feeder on rubber mounts with an unbalance exciter",
@@ -254,6 +234,7 @@ def build() -> System:
         frame=ground,
         free_bodies=free_bodies,
         unknowns=(B_x, B_y),
+        steady=steady,
         shapes=shapes,
         pose=(0.06, 0.07, 0.1),
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import cos, pi, sin
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import sympy as sm
 from sympy.physics.mechanics import (
@@ -21,10 +21,6 @@ from engdyn import shapes as sh
 from engdyn.modeling.newton import FreeBody
 from engdyn.quantities import Coordinate, Input, Parameter
 from engdyn.system import System
-
-if TYPE_CHECKING:
-    from engdyn.analysis.branches import BranchSet
-    from engdyn.analysis.results import EquilibriumSet
 
 PARAMETERS = (
     Parameter("J_r", "kg m^2", 2900000.0, "rotor inertia"),
@@ -129,7 +125,7 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
         *_drum(at_wheel, 0.0, 0.12 * R, wheel, tb / values["N"]),
         *_drum(at_wheel, high, 0.16 * R, pinion, -tb),
         *_drum(at_generator, high, 0.5 * R, 0.2 * R, -tg),
-        sh.Label((0.08 * R, -0.1 * R), "$J_r$", (1.0, -1.0)),
+        sh.Label((0.03 * R, -0.35 * R), "$J_r$", (1.0, 0.0)),
         sh.Label((at_wheel - 0.06 * R, -0.6 * wheel), "$J_1$", (-1.0, 0.0)),
         sh.Label((at_wheel - 0.08 * R, high), "$J_2$", (-1.0, 1.0)),
         sh.Label((at_wheel - 0.08 * R, wheel), "$N$", (-1.0, 0.0)),
@@ -174,39 +170,14 @@ def _shaft(height: float, start: float, end: float, R: float, name: str) -> list
     ]
 
 
-class DriveTrain(System):
-    """A System whose steady motions are looked for among generator speeds from -400 to 800 rad/s."""
-
-    def equilibria(self, values: Mapping[str, float] | None = None, **inputs: Any) -> EquilibriumSet:
-        """All steady motions: constant rates with tr' = tg'/N and tb' = tg'."""
-        from engdyn.analysis.equilibrium import equilibria
-
-        values, _ = self._question(values, inputs)
-        return equilibria(self.equations, values, _speeds(values["N"]), inputs)
-
-    def branches(
-        self,
-        parameter: str,
-        range: tuple[float, float],
-        values: Mapping[str, float] | None = None,
-        **inputs: Any,
-    ) -> BranchSet:
-        """Steady motions over one parameter."""
-        from engdyn.analysis.branches import continue_equilibria
-
-        values, _ = self._question(values, inputs)
-        bounds = _speeds(values["N"])
-        return continue_equilibria(self.equations, values, parameter, range, bounds=bounds, inputs=inputs)
-
-
-def _speeds(ratio: float) -> dict[str, tuple[float, float]]:
-    """Region of the rotor's rate [rad/s], for a gear ratio."""
-    return {"tr_d": (-400.0 / ratio, 800.0 / ratio)}
+def steady(values: Mapping[str, float], inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """All rates constant, tr' = tg'/N and tb' = tg', with tg' between -400 and 800 rad/s."""
+    return {"bounds": {"tr_d": (-400.0 / values["N"], 800.0 / values["N"])}}
 
 
 def build() -> System:
     """The drive train as a System."""
-    return DriveTrain(
+    return System(
         number=20,
         key="wind_turbine_drivetrain",
         title="Wind-turbine drive train with gear stage",
@@ -240,6 +211,7 @@ def build() -> System:
         frame=ground,
         free_bodies=free_bodies,
         unknowns=(F_z, W_y, W_z, P_y, P_z),
+        steady=steady,
         shapes=shapes,
         pose=(0.0, 0.35, 0.35),
     )

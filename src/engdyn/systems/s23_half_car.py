@@ -181,4 +181,5 @@ def build() -> System:
         frame=ground,
         free_bodies=free_bodies,
         shapes=shapes,
+        pose=(0.06, 0.09, 0.0, 0.0),
     )
