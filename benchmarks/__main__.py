@@ -1,7 +1,8 @@
 """Run every benchmark: ``python -m benchmarks``."""
 
-from benchmarks import derive, prove
+from benchmarks import catalogue, derive, prove
 
 if __name__ == "__main__":
     derive.main([])
+    catalogue.main([])
     prove.main([])

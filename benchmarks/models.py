@@ -38,6 +38,7 @@ class Model:
     potential: sm.Expr
     dissipation: sm.Expr = sm.S.Zero
     forces: dict = field(default_factory=dict)
+    constraints: tuple = ()
 
 
 def catalogue_system(key: str) -> Model:
@@ -53,6 +54,7 @@ def catalogue_system(key: str) -> Model:
         s.potential_energy,
         s.dissipation,
         s.generalized_forces,
+        s.constraints,
     )
 
 
@@ -228,9 +230,10 @@ def lagrangian(model: Model) -> Equations:
 
 def engdyn_equations(model: Model) -> tuple[ed.EquationsOfMotion, ed.EquationsOfMotion]:
     """Both derivations of engdyn."""
+    q, constraints = model.coordinates, model.constraints
     return (
-        ed.newton_euler(model.free_bodies, model.coordinates, model.frame, model.unknowns),
-        ed.lagrange(model.kinetic, model.potential, model.coordinates, model.dissipation, model.forces),
+        ed.newton_euler(model.free_bodies, q, model.frame, model.unknowns, constraints=constraints),
+        ed.lagrange(model.kinetic, model.potential, q, model.dissipation, model.forces, constraints),
     )
 
 
