@@ -24,6 +24,9 @@ __all__ = ["branch_figure", "branch_question", "drawing_figure", "poses_figure",
 DPI = 110
 """Resolution of the pictures."""
 
+CROWD = 8
+"""More poses than these on top of each other nobody can tell apart."""
+
 SAMPLES = (0.5, 0.7, 1.4, 2.0)
 """Multiples of a parameter's default at which equilibria are compared with those at the default."""
 
@@ -47,12 +50,16 @@ def drawing_figure(system: System) -> str:
 
 
 def poses_figure(system: System, found: Sequence[Any], verdicts: Sequence[str]) -> str:
-    """All equilibria on one drawing."""
+    """All equilibria on one drawing; of a crowd, those that are stable."""
+    shown = list(zip(found, verdicts, strict=True))
+    caption = "All equilibria on top of each other: stable ones in full lines, unstable ones broken."
+    if len(shown) > CROWD:
+        shown = [(state, verdict) for state, verdict in shown if verdict == "asymptotically stable"] or shown
+        caption = f"The {len(shown)} stable ones of {len(found)} equilibria, on top of each other."
     try:
-        ax = equilibrium_poses(system, found, judged=list(verdicts))
+        ax = equilibrium_poses(system, [s for s, _ in shown], judged=[v for _, v in shown])
     except EngdynError:
         return ""
-    caption = "All equilibria on top of each other: stable ones in full lines, unstable ones broken."
     return _figure(ax, caption if len(found) > 1 else "The system in its equilibrium.")
 
 
