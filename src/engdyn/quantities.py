@@ -109,7 +109,7 @@ class Input:
     symbol : dynamicsymbol
     unit : str
     meaning : str
-    kind : {"force", "couple", "prescribed motion", "drive angle"}
+    kind : {"force", "couple", "angle", "prescribed motion", "drive angle"}
     default : (value, rate, acceleration), optional
         Expressions in the parameters and t that hold where the input is not given.
     """

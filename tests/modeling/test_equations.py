@@ -203,3 +203,10 @@ def test_constants_of_mathematics_have_their_values():
     assert [p.name for p in eom.parameters] == ["c", "k", "m"]
     expected = -(math.e * 3.0 * 0.4 + math.pi * 0.5 + math.sin(0.4 + math.pi / 7)) / 2.0
     assert eom.accelerations([0.4], [0.0], VALUES)[0] == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize("given", ["123", b"123", {"value": 1.0, "rate": 0.0, "acceleration": 0.0}, object()])
+def test_an_input_is_a_number_or_three(given):
+    crane = ed.systems.load("S07")
+    with pytest.raises(ed.EngdynError, match="input F is .*: give a number or"):
+        crane.equations.accelerations([0.0, 0.0], [0.0, 0.0], crane.values(), {"F": given})

@@ -673,6 +673,20 @@ def test_castor_under_a_side_force_stands_aside():
     assert reaction(castor, "lam", aside.q, [0, 0], [0, 0], None, {"F": (600.0, 0, 0)}) == pytest.approx(0.0)
 
 
+@pytest.mark.parametrize(("couple", "force"), [({}, 0.0), ({"M": 3.0}, -30.0)])
+def test_castor_without_lateral_spring_runs_straight_anywhere(couple, force):
+    """The ground holds the castor with the side force M/a, and F = -M/a the carriage."""
+    castor = ed.systems.load(13)
+    found = castor.equilibria({"k_y": 0.0}, **couple)
+    assert found.certified
+    assert found.neutral == ("y",)
+    (straight,) = found
+    assert straight.q == pytest.approx([0.0, 0.0])
+    assert straight.inputs["F"] == pytest.approx(force)
+    stability = ed.stability(ed.linearize(castor.equations, straight))
+    assert (stability.verdict, stability.neutral) == ("asymptotically stable", 1)
+
+
 # S14
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -72,12 +72,9 @@ def input_values(
 def _input_triple(name: str, value: Any) -> list[float]:
     if isinstance(value, int | float | np.number) or getattr(value, "ndim", None) == 0:
         return [_finite(value, f"input {name}"), 0.0, 0.0]
-    try:
-        parts = list(value)
-    except TypeError as error:
-        raise EngdynError(
-            f"input {name} is {value!r}: give a number or (value, rate, acceleration)"
-        ) from error
+    if not isinstance(value, Sequence | np.ndarray) or isinstance(value, str | bytes):
+        raise EngdynError(f"input {name} is {value!r}: give a number or (value, rate, acceleration)")
+    parts = list(value)
     if len(parts) != 3:
         raise EngdynError(
             f"input {name} has {len(parts)} entries: give a number or (value, rate, acceleration)"

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import cos, pi, sin
+from typing import Any
 
 import sympy as sm
 from sympy.physics.mechanics import (
@@ -72,6 +74,11 @@ def free_bodies() -> list[FreeBody]:
         reactions=[Force(king_pin, pin_force), Force(wheel, lam * castor_axes.y)],
     )
     return [carriage, castor]
+
+
+def steady(values: Mapping[str, float], inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """Running straight; a carriage without spring is held by a side force, which is solved for."""
+    return {} if values["k_y"] or "F" in inputs else {"rates": {"y": 0.0}, "free": ["F"]}
 
 
 def shapes(q: list[float], values: dict[str, float]) -> list:
@@ -152,6 +159,7 @@ def build() -> System:
         frame=ground,
         free_bodies=free_bodies,
         unknowns=(P_x, P_y, X_v, lam),
+        steady=steady,
         shapes=shapes,
         pose=(0.03, 0.35),
     )
