@@ -109,7 +109,8 @@ class Input:
     symbol : dynamicsymbol
     unit : str
     meaning : str
-    kind : {"force", "couple", "angle", "prescribed motion", "drive angle"}
+    kind : {"force", "couple", "prescribed motion", "drive angle"}
+        A force is whatever acts by its value alone: a steering or a gust angle, too.
     default : (value, rate, acceleration), optional
         Expressions in the parameters and t that hold where the input is not given.
     """

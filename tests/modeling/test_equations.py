@@ -208,5 +208,5 @@ def test_constants_of_mathematics_have_their_values():
 @pytest.mark.parametrize("given", ["123", b"123", {"value": 1.0, "rate": 0.0, "acceleration": 0.0}, object()])
 def test_an_input_is_a_number_or_three(given):
     crane = ed.systems.load("S07")
-    with pytest.raises(ed.EngdynError, match="input F is .*: give a number or"):
+    with pytest.raises(ed.EngdynError, match=r"input F is .*: give a number or"):
         crane.equations.accelerations([0.0, 0.0], [0.0, 0.0], crane.values(), {"F": given})

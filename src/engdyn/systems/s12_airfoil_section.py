@@ -171,7 +171,7 @@ def build() -> System:
         ),
         parameters=PARAMETERS,
         inputs=(
-            Input(alpha_g, "rad", "gust angle, added to the angle of attack", "angle"),
+            Input(alpha_g, "rad", "gust angle, added to the angle of attack", "force"),
             Input(F, "N", "force on the elastic axis, positive along Y"),
         ),
         kinetic_energy=own + J_G * alpha_d**2 / 2,

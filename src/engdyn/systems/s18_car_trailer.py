@@ -209,7 +209,7 @@ def build() -> System:
         ),
         parameters=PARAMETERS,
         inputs=(
-            Input(delta, "rad", "steering angle, to the left", "angle"),
+            Input(delta, "rad", "steering angle, to the left"),
             Input(F_w, "N", "side gust on the trailer, to the left"),
         ),
         kinetic_energy=kinetic_energy(),
