@@ -555,6 +555,267 @@ def test_the_wrong_term_is_named_and_no_other(make):
     assert str(proof.differences[0]) in repr(proof)
 
 
+# More systems: what is changed in the energies, the loads or a row, and what has to be said where
+
+
+class Slip:
+    """A system of the catalogue, and a student who derives it with something else in one place."""
+
+    def __init__(self, key: str):
+        self.system = ed.systems.load(key)
+        self.q = [c.symbol for c in self.system.coordinates]
+        self.p = {p.name: p.symbol for p in self.system.parameters}
+        self.inputs = {f.func.__name__: f for f in self.system.lagrange().inputs}
+
+    def energies(self, T=0, V=0, D=0, Q=None) -> ed.EquationsOfMotion:
+        """Lagrange's equations with something added to T, V and D, and loads replaced."""
+        s, loads = self.system, self.system.generalized_forces
+        T, V, D = s.kinetic_energy + T, s.potential_energy + V, s.dissipation + D
+        return ed.lagrange(T, V, self.q, D, loads if Q is None else Q)
+
+    def row(self, **changes: sm.Expr) -> ed.EquationsOfMotion:
+        """The right equations with something added to those of some coordinates."""
+        rows = residuals(self.system.lagrange())
+        return by_hand(
+            [r + changes.get(q.func.__name__, 0) for r, q in zip(rows, self.q, strict=True)], self.q
+        )
+
+
+def hip_inertia_with_the_speed_of_g(s):
+    b, p = s.q[1], s.p
+    return s.energies(T=p["m_2"] * p["a_2"] ** 2 * b.diff(t) ** 2 / 2)
+
+
+def hip_spring_to_the_ground(s):
+    a, b = s.q
+    return s.energies(V=s.p["k_h"] * (b**2 - (b - a) ** 2) / 2)
+
+
+def hip_damper_to_the_ground(s):
+    a, b = s.q
+    return s.energies(D=s.p["c_h"] * (b.diff(t) ** 2 - (b.diff(t) - a.diff(t)) ** 2) / 2)
+
+
+def motor_without_its_work_on_the_shell(s):
+    return s.energies(Q={s.q[1]: s.inputs["tau"]})
+
+
+def pendulum_rate_in_the_wrong_sense(s):
+    x, theta = s.q
+    return s.energies(D=-2 * s.p["c_a"] * theta.diff(t) * x.diff(t) / s.p["R"])
+
+
+def angle_not_from_the_slope(s):
+    (x, theta), p = s.q, s.p
+    wrong, right = cos(theta), cos(theta - p["beta"])
+    return s.energies(T=p["m"] * p["l"] * (wrong - right) * x.diff(t) * theta.diff(t))
+
+
+def lift_arm_without_its_cosine(s):
+    y, alpha = s.q
+    Q = s.system.generalized_forces
+    return s.energies(Q={y: Q[y], alpha: sm.cancel(Q[alpha] / cos(alpha))})
+
+
+def spin_of_the_rotor_for_that_of_its_axes(s):
+    (alpha, beta), extra = s.q, s.p["A"] * s.p["Omega"] * cos(s.q[1])
+    return s.row(alpha=-extra * beta.diff(t), beta=extra * alpha.diff(t))
+
+
+def spin_of_the_top_for_that_of_its_axes(s):
+    phi, theta, psi = s.q
+    return s.row(theta=-s.p["A"] * sin(theta) * phi.diff(t) * psi.diff(t))
+
+
+def gyro_couple_on_the_ship_turned(s):
+    theta = s.q[1]
+    return s.row(phi=-2 * s.p["C_r"] * s.p["w_s"] * cos(theta) * theta.diff(t))
+
+
+def steady_turning_taken_for_granted(s):
+    drive, alpha, beta = s.inputs["drive"], *s.q
+    m, L, R = s.p["m"], s.p["L"], s.p["R"]
+    return s.row(alpha=m * L * (L * sin(beta) + R * sin(alpha) * sin(beta)) * drive.diff(t, 2))
+
+
+def two_springs_without_free_length(s):
+    (y,), p = s.q, s.p
+    length = sm.sqrt(p["b"] ** 2 + y**2)
+    return s.energies(V=p["k"] * (length**2 - (length - p["L_0"]) ** 2))
+
+
+def centrifugal_force_in_v_as_well(s):
+    (theta,), drive = s.q, s.inputs["drive"]
+    return s.energies(V=-s.p["m"] * s.p["l"] ** 2 * sin(theta) ** 2 * drive.diff(t) ** 2)
+
+
+def half_the_speed_of_the_collar(s):
+    (theta,), p = s.q, s.p
+    return s.energies(T=-sm.Rational(3, 2) * p["M_c"] * p["l"] ** 2 * sin(theta) ** 2 * theta.diff(t) ** 2)
+
+
+def floor_at_rest_under_the_damper(s):
+    y, base = s.q[0].diff(t), s.inputs["yb"].diff(t)
+    return s.energies(D=s.p["c_1"] * (y**2 - (y - base) ** 2) / 2)
+
+
+def instrument_relative_to_the_platform(s):
+    a, b = (q.diff(t) for q in s.q)
+    return s.energies(T=s.p["m_2"] * ((b - a) ** 2 - b**2) / 2)
+
+
+def roll_relative_to_the_wedge(s):
+    return s.row(s=-s.p["m"] * cos(s.p["beta"]) * s.q[0].diff(t, 2))
+
+
+def roll_that_only_slides(s):
+    return s.energies(T=-s.p["m"] * s.q[1].diff(t) ** 2 / 4)
+
+
+def wind_on_the_trolley_only(s):
+    return s.energies(Q={s.q[0]: s.inputs["F"] + s.inputs["W"]})
+
+
+def rear_axle_in_front(s):
+    system, b = s.system, s.p["b"]
+    V, D = (e.subs(b, -b) for e in (system.potential_energy, system.dissipation))
+    return s.energies(V=V - system.potential_energy, D=D - system.dissipation)
+
+
+def weight_in_one_equation_left_out(s):
+    (alpha, beta), p = s.q, s.p
+    return s.row(alpha=p["m"] * p["g"] * p["l"] * sin(alpha) * cos(beta))
+
+
+def wind_from_the_other_side_in_one_equation(s):
+    return s.row(theta2=2 * s.p["L"] * s.inputs["F"] * cos(s.q[1]))
+
+
+@pytest.mark.parametrize(
+    ("key", "derive", "told"),
+    [
+        (
+            "S08",
+            hip_inertia_with_the_speed_of_g,
+            [("theta2", "factor", "parallel-axis term m d² counted twice")],
+        ),
+        (
+            "S08",
+            hip_spring_to_the_ground,
+            [
+                ("theta1", "missing", "nothing with k_h is left"),
+                ("theta2", "missing", "spring k_h is incomplete: the displacement theta1"),
+            ],
+        ),
+        (
+            "S08",
+            hip_damper_to_the_ground,
+            [
+                ("theta1", "missing", "nothing with c_h is left"),
+                ("theta1", "missing", "nothing with c_h is left"),
+                ("theta2", "missing", "the rate theta1' of its other end"),
+            ],
+        ),
+        (
+            "S09",
+            motor_without_its_work_on_the_shell,
+            [("x", "missing", "tau stands in another equation only")],
+        ),
+        (
+            "S09",
+            pendulum_rate_in_the_wrong_sense,
+            [("x", "sign", "the part with theta'"), ("theta", "sign", "the part with x'")],
+        ),
+        (
+            "S09",
+            angle_not_from_the_slope,
+            [
+                ("x", "changed", "cos(theta) stands where cos(beta - theta) belongs"),
+                ("x", "changed", "sin(theta) stands where sin(beta - theta) belongs"),
+                ("theta", "changed", "cos(theta) stands where cos(beta - theta) belongs"),
+            ],
+        ),
+        ("S12", lift_arm_without_its_cosine, [("alpha", "changed", "a factor cos(alpha) is missing")] * 3),
+        (
+            "S15",
+            spin_of_the_rotor_for_that_of_its_axes,
+            [(q, "extra", "(C - A) stands where C belongs") for q in ("alpha", "beta")],
+        ),
+        ("W5", spin_of_the_top_for_that_of_its_axes, [("theta", "extra", "(C - A) stands where C belongs")]),
+        (
+            "S16",
+            gyro_couple_on_the_ship_turned,
+            [("phi", "sign", "its partner elsewhere has the other sign")],
+        ),
+        (
+            "S17",
+            steady_turning_taken_for_granted,
+            [("alpha", "missing", "the Euler term α × r with drive''")],
+        ),
+        ("S02", two_springs_without_free_length, [("y", "missing", "the free length L_0 of the spring")]),
+        (
+            "S03",
+            centrifugal_force_in_v_as_well,
+            [("theta", "factor", "a centrifugal force in T and once more")],
+        ),
+        ("S03", half_the_speed_of_the_collar, [("theta", "factor", "half the speed, squared")] * 2),
+        ("S10", floor_at_rest_under_the_damper, [("y1", "missing", "the rate yb' of its other end")]),
+        (
+            "S10",
+            instrument_relative_to_the_platform,
+            [
+                ("y1", "extra", ""),
+                ("y1", "extra", "y2'' has no place in this equation"),
+                ("y2", "extra", "y1'' has no place in this equation"),
+            ],
+        ),
+        (
+            "W3",
+            roll_relative_to_the_wedge,
+            [("s", "missing", "a relative acceleration taken for the absolute")],
+        ),
+        ("W3", roll_that_only_slides, [("s", "factor", "the rotation of a rolling cylinder left out")]),
+        ("S15", weight_in_one_equation_left_out, [("alpha", "missing", "")]),  # no reaction on a body
+        ("S11", wind_from_the_other_side_in_one_equation, [("theta2", "sign", "")]),  # no length turned
+        ("S07", wind_on_the_trolley_only, [("theta", "missing", "W stands in another equation only")]),
+    ],
+    ids=lambda value: getattr(value, "__name__", None),
+)
+def test_slips_on_the_systems_of_the_catalogue(key, derive, told):
+    slip = Slip(key)
+    proof = ed.prove_equal(derive(slip), slip.system.newton())
+    assert proof.verdict == "refuted"
+    assert [(d.coordinate, d.kind) for d in proof.differences] == [entry[:2] for entry in told], proof
+    for difference, (*_, remark) in zip(proof.differences, told, strict=True):
+        assert remark in difference.remark, difference
+        assert bool(remark) == bool(difference.remark), difference
+
+
+def test_a_length_counted_the_other_way():
+    """Every term with an odd power of b turned, in the four rows of the half car that know b."""
+    slip = Slip("S23")
+    proof = ed.prove_equal(rear_axle_in_front(slip), slip.system.newton())
+    assert proof.verdict == "refuted"
+    assert len({d.coordinate for d in proof.differences}) >= 3
+    assert {d.kind for d in proof.differences} == {"sign"}
+    assert all("an odd power of b has its sign reversed" in d.remark for d in proof.differences), proof
+
+
+def test_two_conventions_for_products_of_inertia():
+    """A body with I_xz turned about the vertical and about its own x axis, with the product of the other sign."""
+    u, w = dynamicsymbols("u w")
+    J_x, J_y, J_z, I_xz = sm.symbols("J_x J_y J_z I_xz", positive=True)
+    omega = sm.Matrix([w.diff(t), u.diff(t) * sin(w), u.diff(t) * cos(w)])
+
+    def derived(product: sm.Expr) -> ed.EquationsOfMotion:
+        tensor = sm.Matrix([[J_x, 0, product], [0, J_y, 0], [product, 0, J_z]])
+        return ed.lagrange((omega.T * tensor * omega)[0] / 2, 0, [u, w])
+
+    proof = ed.prove_equal(derived(-I_xz), derived(I_xz))
+    assert [d.kind for d in proof.differences] == ["sign"] * 3
+    assert all("two conventions for products of inertia" in d.remark for d in proof.differences), proof
+
+
 # No remark where the form of the term does not call for it
 
 

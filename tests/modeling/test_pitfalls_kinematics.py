@@ -101,6 +101,8 @@ def test_rates_alone_miss_part_of_the_angular_acceleration_of_the_boom():
     expected = VALUES["psi_d"] * VALUES["beta_d"] * column(T0)[:, 0]
     assert np.linalg.norm(expected) > 0.1
     np.testing.assert_allclose(missed, expected, atol=2e-5)
+    carried = sum(ed.components(step.carried, w02.ground, VALUES) for step in motion.steps)
+    np.testing.assert_allclose(carried, expected, atol=1e-12)
 
 
 def test_the_tip_of_the_manipulator_moves_as_its_path_does():

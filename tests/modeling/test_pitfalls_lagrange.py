@@ -41,6 +41,7 @@ def test_relative_velocity_loses_the_base_and_is_named():
     (difference,) = proof.differences
     assert difference.kind == "missing"
     assert sm.expand(difference.term - m * l * cos(theta) * xb.diff(t, 2)) == 0
+    assert "base acceleration x_b'' is missing: relative velocities in T" in difference.remark
     tension = sm.Symbol("S")
     rod = me.ReferenceFrame("B")
     rod.orient_axis(N, theta, N.z)

@@ -121,6 +121,12 @@ def double_pendulum(second, first=None):
 def test_pitfall_5_about_g_and_about_a_fixed_hinge_are_one():
     assert double_pendulum("about G")
     assert double_pendulum("about G", first="about the hinge alone")
+    gymnast = ed.systems.load("S08")
+    bodies = [free.body for free in gymnast.free_bodies()]
+    by_package = ed.kinetic_energy(bodies, gymnast.frame)
+    coordinates = [c.symbol for c in gymnast.coordinates]
+    rest = gymnast.potential_energy, coordinates, gymnast.dissipation, gymnast.generalized_forces
+    assert ed.prove_equal(ed.lagrange(by_package, *rest), gymnast.newton())
 
 
 @pytest.mark.parametrize(

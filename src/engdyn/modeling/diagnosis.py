@@ -7,29 +7,14 @@ force.  Where the form says nothing, nothing is said.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable
 from fractions import Fraction
 
 import sympy as sm
 
-from engdyn.modeling.mistakes import (
-    HALF,
-    TWO,
-    WEIGHT,
-    Finding,
-    Rows,
-    acceleration,
-    centripetal,
-    coriolis,
-    damping,
-    follower,
-    friction,
-    name_of,
-    offset,
-    parallel_axis,
-    reaction,
-    spring,
-)
+from engdyn.modeling import load_mistakes, mistakes
+from engdyn.modeling.mistakes import HALF, TWO, WEIGHT, Finding, Rows, name_of
 
 __all__ = ["nature", "remark"]
 
@@ -113,6 +98,24 @@ def _weight(finding: Finding, rows: Rows) -> str:
     return ""
 
 
+def _mirrored(finding: Finding, rows: Rows) -> str:
+    """Every odd power of one parameter turned in all rows: a product of inertia, or a length counted the other way."""
+    pairs = list(zip(rows.given, rows.wanted, strict=True))
+    if finding.kind != "sign" or any(e.denominator is not None for pair in pairs for e in pair):
+        return ""
+    terms = [[dict(rows.ring.polynomials.terms(e.numerator)) for e in pair] for pair in pairs]
+    for key in rows.symbols(finding.term):
+        at, name = rows.ring.index[key], key[1].name
+        if all(given == {e: -c if e[at] % 2 else c for e, c in wanted.items()} for given, wanted in terms):
+            if re.fullmatch(r"[IJ]_?\{?([xyz]{2}|[123]{2})\}?", name) and name[-1] != name[-2]:
+                return (
+                    f"every term with {name} has its sign reversed: two conventions for products of inertia"
+                )
+            if rows.is_length(key):
+                return f"every term with an odd power of {name} has its sign reversed: a length counted the other way?"
+    return ""
+
+
 def _nowhere(finding: Finding, rows: Rows) -> str:
     if finding.kind != "missing":
         return ""
@@ -124,7 +127,14 @@ def _nowhere(finding: Finding, rows: Rows) -> str:
 
 
 def _size(finding: Finding, rows: Rows) -> str:
+    quarter, third = Fraction(1, 4), Fraction(2, 3)
     texts = {TWO: "twice as large as it should be", HALF: "half as large as it should be"}
+    texts |= {quarter: "a quarter of what it should be: half the speed, squared?"}
+    texts |= {
+        1 / quarter: "four times what it should be: twice the speed, squared, or a diameter for a radius?"
+    }
+    if rows.rates(finding) == [(rows.owners[finding.row], 1)]:
+        texts[third] = "two thirds of what it should be: the rotation of a rolling cylinder left out?"
     return texts.get(finding.factor, "") if finding.kind == "factor" else ""
 
 
@@ -133,16 +143,20 @@ LOOKS: tuple[Callable[[Finding, Rows], str], ...] = (
     _units,
     _angles,
     _weight,
-    follower,
-    friction,
-    reaction,
-    offset,
-    acceleration,
-    coriolis,
-    centripetal,
-    damping,
-    parallel_axis,
-    spring,
+    load_mistakes.follower,
+    load_mistakes.friction,
+    load_mistakes.virtual_work,
+    load_mistakes.reaction,
+    _mirrored,
+    mistakes.offset,
+    mistakes.acceleration,
+    mistakes.coriolis,
+    mistakes.centripetal,
+    mistakes.body_spin,
+    load_mistakes.damping,
+    mistakes.parallel_axis,
+    load_mistakes.spring,
+    load_mistakes.elongation,
     _replaced,
     _nowhere,
     _size,

@@ -1,4 +1,4 @@
-"""Mistakes of mechanics that can be told from the form of a wrong term, its equation and the others.
+"""Mistakes with inertia that can be told from the form of a wrong term, its equation and the others.
 
 One function per mistake, with the finding and the rows of both sets; the answer is a remark, or ""
 where the term does not have that form.  Course chapters 1 to 3.
@@ -13,6 +13,7 @@ from functools import cached_property
 from typing import Any
 
 import sympy as sm
+from sympy.physics.vector.printing import vsstrrepr
 
 from engdyn.algebra.ring import Element, Ring
 
@@ -23,22 +24,20 @@ __all__ = [
     "Finding",
     "Rows",
     "acceleration",
+    "body_spin",
     "centripetal",
     "coriolis",
-    "damping",
-    "follower",
-    "friction",
     "name_of",
     "offset",
     "parallel_axis",
-    "reaction",
-    "spring",
 ]
 
 HALF, TWO = Fraction(1, 2), Fraction(2)
 
 #: The name of the acceleration of gravity.
 WEIGHT = "g"
+
+DONE = {"missing": "is missing", "sign": "has its sign reversed"}
 
 
 @dataclass(frozen=True)
@@ -75,9 +74,27 @@ class Rows:
 
     @cached_property
     def angles(self) -> set[sm.Expr]:
-        """Functions that occur in the argument of a sine or cosine."""
+        """Functions in the argument of a sine or cosine, by themselves: of s/R the s is a length."""
         bases = [key[1] for key in self.ring.keys if key[0] == "sine"]
-        return {f for base in bases for f in base.atoms(sm.Function)}
+        return {f for base in bases for f in base.atoms(sm.Function) if base.diff(f).is_number}
+
+    def linear_in(self, element: Element, key: tuple) -> bool:
+        """Whether an element is a multiple of a generator."""
+        slope = self.partial(element, key)
+        return not slope.is_zero() and (slope * self.ring.generator(key)).equals(element)
+
+    def moves(self, element: Element) -> bool:
+        """Whether an element contains a rate or an acceleration."""
+        keys = [self.ring.keys[i] for i in self.ring.independent([element])]
+        return any(key[0] == "function" and key[2] > 0 for key in keys)
+
+    def is_length(self, key: tuple) -> bool:
+        """Whether a parameter stands with a higher power anywhere, as masses, stiffnesses and dampers do not."""
+        return any(not self.partial(self.partial(row, key), key).is_zero() for row in self.wanted)
+
+    def rates(self, finding: Finding) -> list[tuple[tuple, int]]:
+        """The time derivatives in a term, with exponents."""
+        return [(self.ring.keys[i], e) for i, e in enumerate(finding.motion) if e]
 
     def coordinate(self, row: int) -> sm.Expr | None:
         """The coordinate whose equation a row is."""
@@ -86,94 +103,8 @@ class Rows:
 
 
 def name_of(quantity: sm.Expr) -> str:
-    """How a quantity is written in a remark: theta, theta', F."""
-    if isinstance(quantity, sm.Derivative):
-        return quantity.expr.func.__name__ + "'" * int(quantity.variable_count[0][1])
-    return quantity.func.__name__ if quantity.is_Function else str(quantity)
-
-
-def _rates(finding: Finding, rows: Rows) -> list[tuple[tuple, int]]:
-    """The time derivatives in a term, with exponents."""
-    return [(rows.ring.keys[i], e) for i, e in enumerate(finding.motion) if e]
-
-
-def follower(finding: Finding, rows: Rows) -> str:
-    """A force that has a potential in the first set only."""
-    coordinates = [rows.coordinate(i) for i in range(len(rows.given))]
-    if finding.kind not in ("missing", "extra", "changed") or None in coordinates or len(coordinates) < 2:
-        return ""
-    keys = [("function", q, 0) for q in coordinates]
-    for load in _loads(finding, rows):
-        given, wanted = ([rows.partial(row, load) for row in both] for both in (rows.given, rows.wanted))
-        static = all(not _moves(rows, e) for e in (*given, *wanted))
-        if static and any(not e.is_zero() for e in given) and not _curl(rows, given, keys):
-            if _curl(rows, wanted, keys):
-                return f"{name_of(load[1])} has a potential in your equations; a force that turns with a body has none"
-    return ""
-
-
-def _loads(finding: Finding, rows: Rows) -> list[tuple]:
-    """Parameters and inputs in which a term is linear."""
-    inputs = [rows.ring.keys[i] for i in rows.ring.independent([finding.term])]
-    inputs = [key for key in inputs if key[0] == "function" and key[2] == 0]
-    own = {key[1] for key in rows.keys}
-    keys = [*rows.symbols(finding.term), *(key for key in inputs if key[1] not in own)]
-    return [key for key in keys if _linear_in(rows, finding.term, key)]
-
-
-def _linear_in(rows: Rows, element: Element, key: tuple) -> bool:
-    """Whether an element is a multiple of a generator."""
-    slope = rows.partial(element, key)
-    return not slope.is_zero() and (slope * rows.ring.generator(key)).equals(element)
-
-
-def _moves(rows: Rows, element: Element) -> bool:
-    keys = [rows.ring.keys[i] for i in rows.ring.independent([element])]
-    return any(key[0] == "function" and key[2] > 0 for key in keys)
-
-
-def _curl(rows: Rows, forces: Sequence[Element], keys: Sequence[tuple]) -> bool:
-    n = len(forces)
-    return any(
-        not rows.partial(forces[i], keys[j]).equals(rows.partial(forces[j], keys[i]))
-        for i in range(n)
-        for j in range(i)
-    )
-
-
-def friction(finding: Finding, rows: Rows) -> str:
-    """Dry friction with the weight alone for normal force."""
-    given, wanted = rows.given[finding.row], rows.wanted[finding.row]
-    for mu in rows.symbols(finding.term):
-        g = [key for key in rows.symbols(wanted) if key[1].name == WEIGHT]
-        if mu[1].name.split("_")[0] not in ("mu", "μ") or not g:
-            continue
-        assumed, right = (rows.partial(row, mu) for row in (given, wanted))
-        if _linear_in(rows, assumed, g[0]) and not assumed.equals(right):
-            return "was N = m g assumed? The normal force has other parts too; find it from a balance"
-    return ""
-
-
-def reaction(finding: Finding, rows: Rows) -> str:
-    """Everything with one mass, spring or damper is gone from an equation, though others have it."""
-    if finding.kind != "missing":
-        return ""
-    given, wanted = rows.given[finding.row], rows.wanted[finding.row]
-    others = [row for i, row in enumerate(rows.given) if i != finding.row]
-    for key in rows.symbols(finding.term):
-        elsewhere = any(not rows.partial(row, key).is_zero() for row in others)
-        whole = _linear_in(rows, wanted - given, key) and rows.partial(given, key).is_zero()
-        if elsewhere and whole and key[1].name != WEIGHT and not _is_length(key, rows):
-            return (
-                f"nothing with {key[1]} is left in this equation, though it stands in another one: "
-                "was the reaction on this body forgotten?"
-            )
-    return ""
-
-
-def _is_length(key: tuple, rows: Rows) -> bool:
-    """Whether a parameter stands with a higher power anywhere, as masses, stiffnesses and dampers do not."""
-    return any(not rows.partial(rows.partial(row, key), key).is_zero() for row in rows.wanted)
+    """How a quantity is written in a remark: theta, theta', F, cos(theta)."""
+    return vsstrrepr(quantity)
 
 
 def offset(finding: Finding, rows: Rows) -> str:
@@ -182,21 +113,26 @@ def offset(finding: Finding, rows: Rows) -> str:
         return ""
     known = set(rows.symbols(*rows.given))
     lost = [key for key in rows.symbols(finding.term) if key not in known]
-    if len(lost) == 1 and (_is_length(lost[0], rows) or len(_rates(finding, rows)) > 1):
+    if len(lost) == 1 and (rows.is_length(lost[0]) or len(rows.rates(finding)) > 1):
         return f"{lost[0][1]} occurs nowhere in your equations: a distance or an offset left out?"
     return ""
 
 
 def acceleration(finding: Finding, rows: Rows) -> str:
     """Terms with the acceleration of a base or of another coordinate."""
-    rates = _rates(finding, rows)
-    if len(rates) != 1 or rates[0][0][2] != 2 or finding.kind not in ("missing", "sign"):
+    rates = rows.rates(finding)
+    if len(rates) != 1 or rates[0][0][2] != 2 or finding.kind not in ("missing", "extra", "sign"):
         return ""
     key, own = rates[0][0], rows.coordinate(finding.row)
     name = f"{key[1].func.__name__}''"
+    if finding.kind == "extra":
+        coupled = own in (None, key[1]) or not rows.partial(rows.wanted[finding.row], key).is_zero()
+        return "" if coupled else f"{name} has no place in this equation: was a relative velocity put into T?"
     if key not in rows.keys:
         if finding.kind == "sign":
             return f"the term with the base acceleration {name} has its sign reversed"
+        if _squared(("function", key[1], 1), rows):
+            return f"the Euler term α × r with {name} is missing: the prescribed turning need not be steady"
         return (
             f"the term with the base acceleration {name} is missing: relative velocities in T, "
             "or a moment balance about an accelerating point without m r_PG × a_P?"
@@ -214,24 +150,23 @@ def acceleration(finding: Finding, rows: Rows) -> str:
 
 def coriolis(finding: Finding, rows: Rows) -> str:
     """Products of two different rates, one of them that of an angle; and 2 Ω v with constant Ω."""
-    rates = _rates(finding, rows)
+    rates = rows.rates(finding)
     two = len(rates) == 2 and all(key[2] == 1 and e == 1 for key, e in rates)
-    product = two and any(key[1] in rows.angles or _turns(key, rows) for key, _ in rates)
-    if not product and not (len(rates) == 1 and _gyroscopic(finding, rows, rates[0])):
+    gyroscopic = len(rates) == 1 and _gyroscopic(finding, rows, rates[0])
+    product = two and any(key[1] in rows.angles or _squared(key, rows) for key, _ in rates)
+    if not product and not gyroscopic:
         return ""
+    if gyroscopic and finding.kind == "sign":
+        return "the gyroscopic term has its sign reversed: its partner elsewhere has the other sign"
     if finding.kind == "factor" and finding.factor == HALF:
         return "half as large as it should be: the Coriolis term 2 ω v has lost its factor 2"
-    texts = {
-        "missing": "the Coriolis term 2 ω v is missing",
-        "sign": "the Coriolis term has its sign reversed",
-    }
-    return texts.get(finding.kind, "")
+    return f"the Coriolis term 2 ω v {DONE[finding.kind]}" if finding.kind in DONE else ""
 
 
-def _turns(key: tuple, rows: Rows) -> bool:
-    """Whether a coordinate is an angle because its rate squared times a length is an acceleration elsewhere."""
-    at = rows.ring.index[key]
-    return any(
+def _squared(key: tuple, rows: Rows) -> bool:
+    """Whether the square of a rate occurs: times a length it is an acceleration, and the coordinate an angle."""
+    at = rows.ring.index.get(key)
+    return at is not None and any(
         exponents[at] == 2
         for row in rows.wanted
         for exponents, _ in rows.ring.polynomials.terms(row.numerator)
@@ -250,46 +185,41 @@ def _gyroscopic(finding: Finding, rows: Rows, rate: tuple[tuple, int]) -> bool:
 
 
 def centripetal(finding: Finding, rows: Rows) -> str:
-    """The square of the rate of an angle."""
-    rates = _rates(finding, rows)
-    square = len(rates) == 1 and rates[0][1] == 2 and rates[0][0][2] == 1 and rates[0][0][1] in rows.angles
-    texts = {
-        "missing": "the centripetal term ω² r is missing",
-        "sign": "the centripetal term has its sign reversed",
-    }
-    return texts.get(finding.kind, "") if square else ""
-
-
-def damping(finding: Finding, rows: Rows) -> str:
-    """Terms linear in one rate."""
-    rates = _rates(finding, rows)
-    if len(rates) != 1 or rates[0][1] != 1 or rates[0][0][2] != 1:
+    """The square of the rate of an angle, or of a prescribed turning."""
+    rates = rows.rates(finding)
+    if len(rates) != 1 or rates[0][1] != 2 or rates[0][0][2] != 1:
         return ""
-    if finding.factor == TWO:
-        return "twice as large as it should be: Rayleigh's function is half the dissipated power"
-    if finding.factor == HALF:
-        return "half as large as it should be: with D = c v²/2 the damper's force is c v"
-    if finding.kind == "sign":
-        return "a damper must act against the motion: sign reversed"
-    given = rows.given[finding.row]
-    for key in rows.symbols(finding.term) if finding.kind == "missing" else ():
-        kept = rows.partial(given, key)
-        if not kept.is_zero() and _linear_in(rows, finding.term, key) and _only_rates(rows, kept):
-            return f"the rate at the damper {key[1]} is incomplete: a lever arm or an offset is left out"
+    angle = rates[0][0][1]
+    prescribed = ("function", angle, 2) not in rows.keys
+    if finding.factor == TWO and prescribed:
+        return "twice as large as it should be: a centrifugal force in T and once more in V or as a load?"
+    known = finding.kind in DONE and (angle in rows.angles or prescribed)
+    return f"the centripetal term ω² r {DONE[finding.kind]}" if known else ""
+
+
+def body_spin(finding: Finding, rows: Rows) -> str:
+    """(C − A) where C belongs: the axes of a body that spins in them have been given its angular velocity."""
+    row, ring = rows.wanted[finding.row], rows.ring
+    plain = row.denominator is None and finding.term.denominator is None
+    if finding.kind != "extra" or not any(finding.motion) or not plain:
+        return ""
+    inertias = [rows.partial(r, key) for r, key in zip(rows.wanted, rows.keys, strict=True)]
+    right = dict(ring.polynomials.terms(row.numerator))
+    for one in rows.symbols(finding.term):
+        for two in rows.symbols(row) if rows.linear_in(finding.term, one) else ():
+            swapped = rows.partial(finding.term, one) * ring.generator(two)
+            opposite = all(right.get(e) == -c for e, c in ring.polynomials.terms(swapped.numerator))
+            if opposite and all(any(not rows.partial(i, k).is_zero() for i in inertias) for k in (one, two)):
+                names = f"({two[1]} - {one[1]}) stands where {two[1]} belongs"
+                return f"{names}: was the angular velocity of the spinning body taken for that of the axes?"
     return ""
-
-
-def _only_rates(rows: Rows, element: Element) -> bool:
-    """Whether every term has one rate."""
-    rates = [i for i, key in enumerate(rows.ring.keys) if key[0] == "function" and key[2] > 0]
-    terms = [e for e, _ in rows.ring.polynomials.terms(element.numerator)]
-    return all(sum(exponents[i] for i in rates) == 1 for exponents in terms)
 
 
 def parallel_axis(finding: Finding, rows: Rows) -> str:
     """A mass times the square of a length, with the acceleration of the equation's own coordinate."""
-    owner, rates = rows.owners[finding.row], _rates(finding, rows)
-    if owner is None or rates != [(owner, 1)] or finding.kind not in ("missing", "extra"):
+    owner, rates = rows.owners[finding.row], rows.rates(finding)
+    fits = finding.kind in ("missing", "extra") or finding.factor == TWO
+    if owner is None or rates != [(owner, 1)] or not fits:
         return ""
     ring, term = rows.ring, finding.term
     symbols = [i for i, key in enumerate(ring.keys) if key[0] == "symbol" and key[1] != sm.pi]
@@ -302,23 +232,8 @@ def parallel_axis(finding: Finding, rows: Rows) -> str:
         return ""
     if finding.kind == "missing":
         return "the parallel-axis term m d² is missing: I_G in place of I_O?"
+    if finding.factor == TWO:
+        alone = (own[1] - rows.partial(term, owner)).is_zero()
+        twice = "the parallel-axis term m d² counted twice: m v_G²/2 goes with I_G, not with I_O"
+        return "" if alone else twice
     return "the parallel-axis term m d² stands there once too often: is the inertia about this point already?"
-
-
-def spring(finding: Finding, rows: Rows) -> str:
-    """A spring without its free length: k L L_q remains of k (L − L_0) L_q."""
-    own = rows.coordinate(finding.row)
-    if finding.kind != "missing" or own is None or any(finding.motion):
-        return ""
-    q, wanted, term = ("function", own, 0), rows.wanted[finding.row], finding.term
-    loads = [key for key in rows.symbols(term) if _linear_in(rows, term, key)]
-    for s in loads:
-        for k in (key for key in loads if key != s):
-            length, slope = rows.ring.generator(s), -term / (rows.ring.generator(k) * rows.ring.generator(s))
-            whole = rows.partial(wanted, k)
-            if slope.is_zero() or _moves(rows, whole) or not rows.partial(slope, k).is_zero():
-                continue
-            found = length + whole / slope
-            if not slope.is_zero() and rows.partial(found, q).equals(slope):
-                return f"the free length {s[1]} of the spring is missing from its energy or force"
-    return ""

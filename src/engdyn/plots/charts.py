@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from matplotlib.axes import Axes
+from matplotlib.text import Text
 
 from engdyn.errors import EngdynError
 from engdyn.plots.alternative import describe
@@ -55,38 +56,33 @@ def flow_chart(
         ax.set_axis_off()
         ax.set_xlim(min(columns) - 0.5, max(columns) + 0.5)
         ax.set_ylim(max(rows) + 0.5, min(rows) - 0.5)
+        drawn = {name: _box(ax, text, at) for name, (text, at) in boxes.items()}
         for arrow in arrows:
-            _arrow(ax, boxes[arrow[0]][1], boxes[arrow[1]][1], arrow[2] if len(arrow) > 2 else "")
-        for text, at in boxes.values():
-            _box(ax, text, at)
+            _arrow(ax, drawn[arrow[0]], drawn[arrow[1]], arrow[2] if len(arrow) > 2 else "")
     steps = "; ".join(" → ".join(boxes[name][0].replace("\n", " ") for name in arrow[:2]) for arrow in arrows)
     describe(ax, f"Flow chart. {steps}.")
     return ax
 
 
-def _box(ax: Axes, text: str, at: tuple[float, float]) -> None:
+def _box(ax: Axes, text: str, at: tuple[float, float]) -> Text:
     decision = text.endswith("?")
     frame = {
-        "boxstyle": "round,pad=0.45,rounding_size=1.2" if decision else "square,pad=0.45",
+        "boxstyle": "round,pad=0.45,rounding_size=0.8" if decision else "square,pad=0.45",
         "facecolor": "#fdf3d9" if decision else FILL["body"],
         "edgecolor": COLORS["body"],
         "linewidth": 1.4,
     }
-    ax.text(*at, text, ha="center", va="center", fontsize=11, color=COLORS["body"], bbox=frame, zorder=3)
+    look = {"fontsize": 11, "color": COLORS["body"], "bbox": frame, "zorder": 3}
+    return ax.text(*at, text, ha="center", va="center", **look)
 
 
-def _arrow(ax: Axes, start: tuple[float, float], end: tuple[float, float], label: str) -> None:
-    """An arrow from box to box; downward ones leave below the box, others beside it."""
-    beside = start[0] != end[0]
-    side = 0.34 if end[0] > start[0] else -0.34
-    tail = (start[0] + side, start[1]) if beside else (start[0], start[1] + 0.28)
-    head = (end[0] - side, end[1]) if beside else (end[0], end[1] - 0.28)
-    look = {"arrowstyle": "-|>", "color": COLORS["body"], "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0}
-    ax.annotate("", xy=head, xytext=tail, arrowprops=look, zorder=2)
+def _arrow(ax: Axes, start: Text, end: Text, label: str) -> None:
+    """An arrow from the edge of one box to that of another, drawn after them: only then they have their size."""
+    look = {"arrowstyle": "-|>", "color": COLORS["body"], "linewidth": 1.4, "shrinkA": 2, "shrinkB": 2}
+    look |= {"patchA": start.get_bbox_patch(), "patchB": end.get_bbox_patch()}
+    (x0, y0), (x1, y1) = tail, head = start.get_position(), end.get_position()
+    ax.annotate("", xy=head, xytext=tail, arrowprops=look, zorder=4)
     if label:
-        place = (
-            (0.5 * (tail[0] + head[0]), tail[1] - 0.16)
-            if beside
-            else (tail[0] + 0.08, 0.5 * (tail[1] + head[1]))
-        )
+        x, y = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
+        place = (x, y - 0.16) if x0 != x1 else (x + 0.08, y)
         ax.text(*place, label, ha="center", va="center", fontsize=11, color=COLORS["coordinate"], zorder=4)

@@ -162,10 +162,16 @@ def acceleration_terms(
         raise EngdynError(
             "acceleration_terms: a term points out of the plane; give `at` three coordinates for space."
         )
-    start, shapes = np.array(at, float), structure(background)
+    start, shapes, ways = np.array(at, float), structure(background), []
     for name, arrow in arrows.items():
         if sizes[name] > 1e-9 * longest:
             tail = np.array(at, float) if name == "total" else start
+            if count == 2 and not head_to_tail:  # side by side where two have one direction
+                way = arrow[:2] / sizes[name]
+                tail = tail + 0.07 * length * sum(float(way @ w) > 0.99 for w in ways) * np.array(
+                    [way[1], -way[0]]
+                )
+                ways.append(way)
             tip = tail + arrow[:count] * length / longest
             role = "position" if name == "total" else "acceleration"
             shapes.append(sh.VectorArrow(tuple(tail), tuple(tip), TERMS[name], role=role))
