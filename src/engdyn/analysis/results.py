@@ -64,6 +64,11 @@ def _digits(x: float) -> str:
     return f"{0.0 if abs(x) < 1e-12 else x:.5g}"
 
 
+def _residual(x: float) -> str:
+    """Rounding differs from machine to machine, so it is not spelled out."""
+    return "&lt; 1e-9" if x < 1e-9 else f"{x:.1e}"
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class EquilibriumSet(Sequence):
     """All equilibria that a search found, and whether they are provably all.
@@ -133,7 +138,9 @@ class EquilibriumSet(Sequence):
     def _repr_html_(self) -> str:
         head = "".join(f"<th>{name}</th>" for name in self.names)
         rows = "".join(
-            "<tr>" + "".join(f"<td>{_digits(x)}</td>" for x in item.q) + f"<td>{item.residual:.1e}</td></tr>"
+            "<tr>"
+            + "".join(f"<td>{_digits(x)}</td>" for x in item.q)
+            + f"<td>{_residual(item.residual)}</td></tr>"
             for item in self
         )
         neutral = f"; neutral: {', '.join(self.neutral)}" if self.neutral else ""
