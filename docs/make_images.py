@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from PIL import Image
+
 import engdyn as ed
 from engdyn.plots.look import new_figure, style
 
@@ -35,7 +37,17 @@ def flyball_governor_branches() -> None:
     figure.savefig(HERE / "flyball_governor_branches.png", dpi=90)
 
 
+def systems() -> None:
+    """The whole catalogue on one page; a palette makes the file a third as large."""
+    path = HERE / "systems.png"
+    ed.plots.contact_sheet().savefig(path, dpi=75)
+    with Image.open(path) as sheet:
+        few = sheet.convert("RGB").quantize(255, dither=Image.Dither.NONE)
+    few.save(path, optimize=True)
+
+
 if __name__ == "__main__":
     HERE.mkdir(exist_ok=True)
     gantry_crane_equilibria()
     flyball_governor_branches()
+    systems()

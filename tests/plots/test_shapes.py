@@ -208,3 +208,13 @@ def test_a_particle_in_front_of_a_plate_is_not_hidden():
         trace(shapes.Particle((x, 0.0, 0.0)), pen)
     plate, behind, before = pen.areas
     assert behind.depth < plate.depth < before.depth
+
+
+@pytest.mark.parametrize("end", [0.8, -0.8])
+def test_a_torsional_damper_looks_after_a_full_turn_as_before(end):
+    drawn = []
+    for turned in (end, end + math.copysign(4.0 * math.pi, end)):
+        pen = Pen(1e-3, View())
+        trace(shapes.TorsionalDamper((0.0, 0.0), 0.1, 0.0, turned, "$c$"), pen)
+        drawn.append(np.vstack([pen.points(), pen.texts[0].anchors]))
+    assert drawn[1] == pytest.approx(drawn[0], abs=1e-12)

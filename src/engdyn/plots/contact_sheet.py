@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from numbers import Integral, Real
+from numbers import Integral
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -16,6 +16,9 @@ from engdyn.system import System
 from engdyn.systems.library import catalogue, load
 
 __all__ = ["contact_sheet"]
+
+CELL = (4.0, 3.3)
+"""Width and height of the place of one drawing, its title included, in inches."""
 
 TITLE = 30.0
 """Height of the line of text above a drawing, in points."""
@@ -30,7 +33,6 @@ def contact_sheet(
     *,
     labels: bool = False,
     letters: float = 12.0,
-    cell: tuple[float, float] = (4.0, 3.3),
 ) -> Figure:
     """Draw many systems on one page, each in the pose that shows it best.
 
@@ -46,8 +48,6 @@ def contact_sheet(
         Write the labels and draw the dimensions of the parameters.
     letters : float
         Size of the labels in points.
-    cell : (float, float)
-        Width and height of the place of one drawing, its title included, in inches.
 
     Returns
     -------
@@ -57,7 +57,7 @@ def contact_sheet(
     Raises
     ------
     EngdynError
-        No systems, something that is none, less than one column, or a size that is not positive.
+        No systems, something that is none, or less than one column.
 
     Examples
     --------
@@ -69,11 +69,10 @@ def contact_sheet(
     chosen = _chosen(systems)
     if not isinstance(columns, Integral) or isinstance(columns, bool) or columns < 1:
         raise EngdynError(f"columns = {columns!r}: a sheet has one column or more; give a whole number.")
-    width, height = _positive(cell)
     columns = min(int(columns), len(chosen))
     rows = -(-len(chosen) // columns)
-    figure = new_figure(columns * width, rows * height, layout=None)
-    share = 1.0 - TITLE / (72.0 * height)
+    figure = new_figure(columns * CELL[0], rows * CELL[1], layout=None)
+    share = 1.0 - TITLE / (72.0 * CELL[1])
     for place, system in enumerate(chosen):
         row, column = divmod(place, columns)
         box = (column / columns, 1.0 - (row + 1) / rows, 1.0 / columns, share / rows)
@@ -96,21 +95,13 @@ def _chosen(systems: Sequence[System | str | int] | None) -> list[System]:
     return [system if isinstance(system, System) else load(system) for system in systems]
 
 
-def _positive(cell: tuple[float, float]) -> tuple[float, float]:
-    """Width and height of a cell in inches, checked."""
-    sizes = tuple(cell) if isinstance(cell, tuple | list) else ()
-    if len(sizes) != 2 or not all(isinstance(x, Real) and 0.8 <= x <= 20.0 for x in sizes):
-        raise EngdynError(f"cell = {cell!r}: give width and height in inches, each from 0.8 to 20.")
-    return float(sizes[0]), float(sizes[1])
-
-
 def _draw(ax: Axes, system: System, labels: bool, letters: float) -> None:
     shapes = system.shapes(shown_pose(system), system.values())
     if not labels:  # a dimension without its letter says nothing
         shapes = [shape for shape in shapes if shape.role != "parameter"]
     draw_layers(ax, [Layer(shapes)], labels=labels, margin=(22.0, 18.0) if labels else MARGIN, size=letters)
     with style():
-        ax.set_title(_heading(system), fontsize=16.0, pad=5.0)
+        ax.set_title(_heading(system), fontsize=14.0, pad=5.0)
     describe(ax, _words(system))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import html
 import io
 import json
@@ -169,11 +170,10 @@ def _mp4(animation: Animation, ends: NDArray[np.float64], name: str) -> bytes:
                 stderr=told,
             )
             try:
-                for frame in _frames(animation, name):
-                    process.stdin.write(frame.tobytes())
-                process.stdin.close()
-            except BrokenPipeError:
-                pass  # ffmpeg gave up; what it says follows
+                # A broken pipe: ffmpeg gave up; what it says follows.
+                with contextlib.suppress(BrokenPipeError), process.stdin as pipe:
+                    for frame in _frames(animation, name):
+                        pipe.write(frame.tobytes())
             except BaseException:
                 process.kill()
                 raise

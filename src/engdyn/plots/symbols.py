@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import singledispatch
 from typing import Any
 
@@ -174,7 +175,10 @@ def _(shape: shapes.TorsionalSpring, pen: Pen) -> None:
 def _(shape: shapes.TorsionalDamper, pen: Pen) -> None:
     width = min(13.0 * pen.unit, 0.6 * shape.radius)
     unit_center = (0.0,) * len(shape.center)
-    length = shape.radius * abs(shape.end - shape.start)
+    # After a full turn it looks as before.
+    turn = math.fmod(shape.end - shape.start, 2.0 * math.pi)
+    shape = replace(shape, end=shape.start + turn)
+    length = shape.radius * abs(turn)
     if length < 3.0 * pen.unit:
         _beside_arc(shape, pen, 4.0, "parameter")
         return
@@ -182,9 +186,7 @@ def _(shape: shapes.TorsionalDamper, pen: Pen) -> None:
         # Enough points that the straight symbol follows the arc.
         fine = np.linspace(0, len(part) - 1, 12 * (len(part) - 1) + 1)
         along, across = (np.interp(fine, np.arange(len(part)), part[:, i]) for i in (0, 1))
-        unit = arc(
-            unit_center, 1.0, shape.start + along * (shape.end - shape.start), shape.x_axis, shape.y_axis
-        )
+        unit = arc(unit_center, 1.0, shape.start + along * turn, shape.x_axis, shape.y_axis)
         radii = shape.radius + 0.5 * width * across
         pen.line(np.array(shape.center) + radii[:, None] * unit, shape.role, weight, level=ABOVE_BODIES)
     _beside_arc(shape, pen, 0.5 * width / pen.unit + 4.0, "parameter")

@@ -88,7 +88,7 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
     """View from above, bearing O at the origin; sizes are fractions of the larger of s_0 and e."""
     theta, s, e, s_0 = q[0], q[1], values["e"], values["s_0"]
     O, u = (0.0, 0.0), max(abs(s_0), 2.0 * abs(e), 1e-3)
-    rim = max(2.1 * u, hypot(s, e) + 0.7 * u)
+    rim = max(2.1 * u, hypot(s, e) + 0.45 * u)
 
     def on_table(x: float, y: float) -> tuple[float, float]:
         return (x * cos(theta) - y * sin(theta), x * sin(theta) + y * cos(theta))
@@ -120,7 +120,7 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
         sh.Dimension(on_table(start - 0.25 * u, 0.0), slot(start - 0.25 * u), "$e$"),
         sh.Label(on_table(0.2 * rim, -0.75 * rim), "$J$"),
         sh.MomentArrow(O, 0.42 * u, theta + 1.15 * pi, theta + 1.7 * pi, "$M$"),
-        sh.MomentArrow(O, 0.88 * rim, theta + 1.15 * pi, theta + 1.35 * pi, r"$\Omega$", role="reference"),
+        sh.MomentArrow(O, 0.72 * rim, theta + 1.15 * pi, theta + 1.35 * pi, r"$\Omega$", role="reference"),
         sh.Pin(O),
         sh.Label(on_table(-0.1 * u, -0.08 * u), "$O$", on_table(-0.7, -1.0), "reference"),
     ]

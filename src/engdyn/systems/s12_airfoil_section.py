@@ -97,7 +97,7 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
         sh.Label(body(0.0, 0.07 * c), "$E$", (0.3, 1.0), "reference"),
         sh.CenterOfMass(center),
         sh.Label(body(-d - 0.02 * c, 0.06 * c), "$G$", (-1.0, 0.6), "reference"),
-        sh.Label((-0.48 * c, y - 0.34 * c), "$m,\\ J_G$"),
+        sh.Label((-0.66 * c, y - 0.34 * c), "$m,\\ J_G$"),
         sh.Dimension(axis, pressure, "$e$", offset=0.3 * c),
         sh.Dimension(center, axis, "$d$", offset=0.3 * c),
         sh.Dimension(body(-a_34), axis, "$a_{34}$", offset=0.52 * c),

@@ -94,7 +94,7 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
         sh.CenterOfMass(G, "$G$"),
         sh.ForceArrow(G, (G[0] + 1.3 * u, G[1]), "$F_x$"),
         sh.ForceArrow(G, (G[0], G[1] + 1.3 * u), "$F_y$"),
-        *_side_view(-6.4 * u, u),
+        *_side_view(-7.2 * u, u),
     ]
 
 

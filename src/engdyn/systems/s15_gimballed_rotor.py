@@ -122,7 +122,7 @@ def _gimbal(ring: float, alpha: float, beta: float) -> list:
         *(sh.Support(at(s * 1.3 * ring * X)) for s in (-1, 1)),
         sh.Curve(tuple(map(tuple, ring * (np.cos(turn) * X + np.sin(turn) * y)))),
         sh.Link(at(-ring * y), at(ring * y)),
-        *(sh.Pin(at(s * ring * y)) for s in (-1, 1)),
+        sh.Pin(at(-ring * y)),  # the other one is behind the rotor
         sh.TorsionalSpring(at(-1.12 * ring * X), small, -pi / 2, pi / 2 + alpha, "$k_a$", **about_x),
         sh.TorsionalDamper(at(1.12 * ring * X), small, -pi / 2, pi / 2 + alpha, "$c_a$", **about_x),
         sh.TorsionalSpring(at(-0.8 * ring * y), small, -pi / 2, beta, "$k_b$", **about_y),

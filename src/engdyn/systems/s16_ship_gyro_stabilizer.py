@@ -133,7 +133,7 @@ def _hull(u: float, GM: float, aft: np.ndarray, y: np.ndarray, up: np.ndarray) -
         sh.Label(tuple(aft - 1.1 * u * y + 0.6 * u * up), "$I_s,\\ c_r$"),
         sh.Curve((tuple(G), tuple(M)), role="parameter"),
         sh.CenterOfMass(tuple(G)),
-        sh.Pin(tuple(M)),
+        sh.Pin(tuple(M), role="parameter"),
         sh.Dimension(tuple(G + aside), tuple(M + aside), "$G_M$"),
     ]
 
@@ -148,7 +148,7 @@ def _gyro(u: float, h: float, theta: float, X: np.ndarray, y: np.ndarray, up: np
     return [
         sh.CenterLine(origin, at(1.3 * u * axis), "$z''$", arrow=True),
         sh.Curve(tuple(map(tuple, 0.72 * u * (np.cos(turn) * y + np.sin(turn) * axis))), role="link"),
-        sh.Label(at(-end), "$m_g,\\ A_x,\\ A_y,\\ C_g$", (-0.5, -1.0)),
+        sh.Label(at(-end), "$m_g,\\ A_x,\\ A_y,\\ C_g$", (0.6, -1.0)),
         sh.Link(at(-end), at(end)),
         sh.Disc(at(-thick), 0.5 * u, **plane),
         sh.Disc(at(thick), 0.5 * u, **plane),

@@ -91,7 +91,7 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
         sh.Pin(at(tip)),
         sh.Particle(at(seat), "$m,\\ c$"),
         sh.ForceArrow(at(seat), at(seat + 0.9 * ahead * forward), "$F_t$"),
-        sh.GravityArrow(at(0.4 * tip - 0.6 * L * up), at(0.4 * tip - L * up), "$g$"),
+        sh.GravityArrow(at(-0.3 * tip - 0.8 * L * up), at(-0.3 * tip - 1.2 * L * up), "$g$"),
     ]
 
 

@@ -153,7 +153,7 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
     ahead, behind = -0.45 * min(v["d"], v["e"]), -1.3 * max(v["d"], v["e"])
     line = _on(center, psi, 0.45 * v["a"])[0]
     return [
-        sh.CenterLine((hitch[0] + behind, 0.0), (nose + 1.1 * width, 0.0), "$X$", arrow=True),
+        sh.CenterLine((hitch[0] + 1.15 * behind, 0.0), (nose + 1.1 * width, 0.0), "$X$", arrow=True),
         _body(hitch, theta, behind, ahead, 0.95 * width),
         _body(center, psi, tail, nose, width),
         sh.Link(_on(center, psi, tail), hitch),
@@ -169,17 +169,17 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
         sh.Label(_on(load, theta, 0.25 * v["e"], 0.25 * width), "$m_2,\\ J_2$"),
         sh.Dimension(center, front, "$a$", offset=0.72 * width),
         sh.Dimension(rear, center, "$b$", offset=0.72 * width),
-        sh.Dimension(hitch, center, "$h$", offset=1.08 * width),
+        sh.Dimension(hitch, center, "$h$", offset=1.3 * width),
         sh.Dimension(load, hitch, "$e$", offset=-0.72 * width),
         sh.Dimension(axle, hitch, "$d$", offset=-1.22 * width),
         sh.CenterLine(center, (1.25 * nose, y)),
         sh.AngleArrow(center, 1.15 * nose, 0.0, psi, r"$\psi$"),
-        sh.CenterLine(hitch, (hitch[0] - 1.1 * v["d"], hitch[1])),
-        sh.AngleArrow(hitch, 0.42 * v["d"], pi, pi + theta, r"$\theta$"),
+        *(sh.CenterLine(hitch, _on(hitch, angle, 1.15 * behind)) for angle in (0.0, theta)),
+        sh.AngleArrow(hitch, -1.08 * behind, pi, pi + theta, r"$\theta$"),
         sh.TorsionalDamper(hitch, 0.22 * width, psi, theta + pi, "$c_h$"),
         sh.Pin(hitch),
         sh.CoordinateArrow((line, 0.0), (line, y), "$y$", positive=(0.0, 1.0)),
-        sh.ForceArrow((load[0], load[1] - 0.9 * width), load, "$F_w$"),
+        sh.ForceArrow(load, (load[0], load[1] + 0.9 * width), "$F_w$"),
         sh.VectorArrow((nose + 0.2 * width, -1.5 * width), (nose + 0.9 * width, -1.5 * width), "$v$"),
     ]
 
@@ -221,5 +221,5 @@ def build() -> System:
         unknowns=(H_x, H_y, X_c),
         steady=steady,
         shapes=shapes,
-        pose=(0.6, 0.18, -0.3),
+        pose=(0.6, 0.18, 0.3),
     )

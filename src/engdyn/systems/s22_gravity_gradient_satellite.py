@@ -102,7 +102,7 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
     path = 9.0 * (np.sin(arc) * orbital[0] + (1.0 - np.cos(arc)) * orbital[2])
     found: list = [sh.Curve(tuple(map(at, path)), role="reference")]
     for i, axis in enumerate(orbital, 1):
-        found.append(sh.CenterLine(G, at(long * axis), f"$o_{i}$", arrow=True))
+        found.append(sh.CenterLine(G, at(long * axis), f"$o_{i}$", arrow=True, role="ground"))
     found.append(sh.Box(G, at(sides), axes=tuple(map(at, axes))))
     for i, axis in enumerate(axes, 1):
         others = {"x_axis": at(axes[i % 3]), "y_axis": at(axes[(i + 1) % 3])}
@@ -119,7 +119,7 @@ def shapes(q: list[float], values: dict[str, float]) -> list:
         sh.MomentArrow(
             at(2.4 * orbital[2]), 0.4, 0.0, 1.5, "$n$", at(-orbital[2]), at(orbital[0]), role="reference"
         ),
-        sh.TorsionalDamper(G, 1.2, 0.0, psi, "$c$", at(orbital[0]), at(orbital[1])),
+        sh.TorsionalDamper(G, 1.3, 0.0, psi, "$c$", at(orbital[0]), at(orbital[1]), role="reference"),
     ]
     return found
 
