@@ -7,6 +7,8 @@ import time
 
 import numpy as np
 import pytest
+import sympy as sm
+from sympy.physics.mechanics import dynamicsymbols
 
 import engdyn as ed
 from analysis import small_systems as small
@@ -258,3 +260,17 @@ def test_missing_values_and_other_models_are_refused():
         ed.continue_equilibria(GOVERNOR.equations, {"m": 1.0}, "Omega", (5.0, 30.0), bounds=GOVERNOR.bounds)
     with pytest.raises(ed.EngdynError, match="give EquationsOfMotion"):
         ed.continue_equilibria(GOVERNOR, VALUES, "Omega", (5.0, 30.0), bounds=GOVERNOR.bounds)
+
+
+def test_where_all_places_are_equilibria_a_neutral_family_is_told_and_not_followed():
+    """V = (p − 1) x²/2: at p = 1 every x is an equilibrium; elsewhere only x = 0 is."""
+    x, p = dynamicsymbols("x"), sm.Symbol("p")
+    eom = ed.lagrange(x.diff() ** 2 / 2, (p - 1) * x**2 / 2, [x], dissipation=x.diff() ** 2 / 8)
+    found = ed.continue_equilibria(eom, {"p": 0.0}, "p", (0.3, 2.0), bounds={"x": (-1, 1)})
+    (crossing,) = found.points
+    assert crossing.kind == "neutral family"
+    assert crossing.parameter == pytest.approx(1.0, abs=1e-9)
+    (branch,) = found
+    assert np.ptp(branch.parameter) == pytest.approx(1.7)
+    away = np.abs(branch.parameter - 1.0) > 1e-6
+    assert np.array_equal(branch.stable[away], branch.parameter[away] > 1.0)

@@ -59,8 +59,9 @@ class BranchPoint:
 
     Attributes
     ----------
-    kind : {"fold", "pitchfork", "transcritical", "multiple"}
-        "multiple" where the equations lose more than one rank.
+    kind : {"fold", "pitchfork", "transcritical", "multiple", "neutral family"}
+        "multiple" where the equations lose more than one rank; "neutral family" where other equilibria
+        with the same value of the parameter lie arbitrarily near.
     parameter : float
         Value of the parameter [SI].
     q : ndarray, shape (n,)

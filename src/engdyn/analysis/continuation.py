@@ -21,6 +21,9 @@ STEP = 1 / 60
 LIMIT = 4000
 """Number of points on one curve."""
 
+LEVEL, RUN = 1e-9, 6
+"""A curve that keeps the parameter to so many parts of the interval over so many points goes over a neutral family."""
+
 NEAR = 2e-3
 """A point this close to a curve lies on it."""
 
@@ -132,6 +135,8 @@ class _Tracer:
                 self._end(points, y, self._to_edge(y, new, tangent))
                 break
             points.append(new)
+            if len(points) == RUN and _is_level([first, *points]):
+                break
             travelled += float(np.linalg.norm(new - y))
             y, tangent = new, turned
             step = min(1.5 * step, STEP)
@@ -241,16 +246,31 @@ class _Tracer:
         if any(np.linalg.norm(known - y) < 1e-4 for _, known in self.singular):
             return
         kind, tangents = classify(self._system, y)
+        place = len(self.singular)
         self.singular.append((kind, y))
-        for tangent in tangents:
-            self._switch(y, tangent)
+        followed = [self._switch(y, tangent) for tangent in tangents]
+        if not all(followed):
+            self.singular[place] = "neutral family", y
 
-    def _switch(self, y: np.ndarray, direction: np.ndarray) -> None:
-        """Start along a tangent of a branch point, in both senses, where that curve is not known."""
+    def _switch(self, y: np.ndarray, direction: np.ndarray) -> bool:
+        """Start along a tangent of a branch point, in both senses, where that curve is not known.
+
+        Where all points of the curve are equilibria at one value of the parameter, it is let go and told.
+        """
         for sense in (direction, -direction):
             for length in (0.2 * STEP, 0.6 * STEP):
                 new = self._corrected(y + length * sense, sense)
                 if new is None or self._known(new) or not self._inside(new):
                     continue
-                self._keep([y, new, *self._follow(new, self._tangent(new, sense))], skip=1)
+                points = [y, new, *self._follow(new, self._tangent(new, sense))]
+                if _is_level(points):
+                    return False
+                self._keep(points, skip=1)
                 break
+        return True
+
+
+def _is_level(points: Sequence[np.ndarray]) -> bool:
+    """Whether a curve begins with a run of points at one value of the parameter."""
+    run = np.array(points[: RUN + 1])
+    return len(run) > RUN and bool(np.ptp(run[:, -1]) < LEVEL)
