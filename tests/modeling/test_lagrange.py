@@ -230,3 +230,12 @@ def test_a_function_without_known_derivative_is_refused_not_dropped():
     assert step.forcing[0].has(sm.Heaviside)
     with pytest.raises(ed.OutsideRingError, match="Heaviside"):
         step.accelerations([1.0], [0.0], {"m": 1.0, "k": 1.0})
+
+
+def test_a_circulatory_force_may_repeat_what_the_potential_couples():
+    """K = [[4, 1], [0, 4]]: half of the coupling is in V, the other half of row 1 is a force."""
+    q1, q2 = dynamicsymbols("q1 q2")
+    kinetic = (q1.diff() ** 2 + q2.diff() ** 2) / 2
+    potential = (4 * q1**2 + q1 * q2 + 4 * q2**2) / 2
+    eom = ed.lagrange(kinetic, potential, [q1, q2], forces={q1: -q2 / 2, q2: q1 / 2})
+    assert list(eom.forcing) == [-4 * q1 - q2, -4 * q2]

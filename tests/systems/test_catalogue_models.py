@@ -13,7 +13,7 @@ from sympy.physics.mechanics import Force, Particle, RigidBody
 import engdyn as ed
 
 CATALOGUE = ["S03", "S07", "S23"]
-WORKED = ["W1", "W2", "W3", "W4", "W5", "W6", "W7", "W10", "W14", "W15", "W16"]
+WORKED = ["W1", "W2", "W3", "W4", "W5", "W6", "W7", "W8", "W9", "W10", "W14", "W15", "W16"]
 
 
 def lagrange_with(system, **changes):

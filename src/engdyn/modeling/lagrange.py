@@ -18,6 +18,7 @@ from engdyn.algebra.readable import to_sympy, tree
 from engdyn.algebra.ring import Derivation, Element
 from engdyn.errors import EngdynError
 from engdyn.modeling.constrained import Constrained
+from engdyn.modeling.energy_balance import Energies
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.nonholonomic import projected, substitute, with_rates_inside
 from engdyn.modeling.state import State, check_coordinates, dependent_rates
@@ -135,7 +136,8 @@ def lagrange(
         state, mass, force = with_rates_inside(state, mass, force)
         mass, force, multipliers = projected(state, mass, force, constraints)
     eom = EquationsOfMotion.from_elements(state, mass, force, "Lagrange", multipliers)
-    eom = eom if full is None else replace(eom, constrained=full)
+    energies = Energies(kinetic, potential, dissipation, forces, constraints)
+    eom = replace(eom, constrained=full, energies=energies)
     if not steps:
         return eom
     from engdyn.modeling.lagrange_steps import lagrange_steps
@@ -221,16 +223,23 @@ def _velocity_part(state: State) -> Derivation:
 
 
 def _check_counted_once(q: sm.Expr, Q: Element, attraction: Element) -> None:
-    """Refuse a generalized force that repeats terms of −∂V/∂q: the weight, most often."""
-    ps = Q.ring.polynomials
+    """Refuse a generalized force that repeats terms of −∂V/∂q: the weight, most often.
+
+    What couples coordinates without a term of its own coordinate may be meant: a circulatory force has one half
+    in V and one in Q.
+    """
+    ps, ring = Q.ring.polynomials, Q.ring
     if Q.denominator is not None or attraction.denominator is not None:
         return
     known = dict(ps.terms(attraction.numerator))
-    twice = {e: c for e, c in ps.terms(Q.numerator) if known.get(e) == c}
-    if twice:
-        term = to_sympy(tree(Element(Q.ring, ps.from_terms(twice))))
+    for exponents, coefficient in ps.terms(Q.numerator):
+        if known.get(exponents) != coefficient:
+            continue
+        repeated = Element(ring, ps.from_terms({exponents: coefficient}))
+        term = to_sympy(tree(repeated))
         weight = any(s.name == "g" for s in term.free_symbols)
-        raise EngdynError(
-            f"the generalized force of {q} contains {term}, which the potential energy gives already: "
-            f"{'gravity' if weight else 'this force'} is counted twice; keep it in V or in forces, not in both"
-        )
+        if weight or not ring.partial(("function", q, 0))(repeated).is_zero():
+            raise EngdynError(
+                f"the generalized force of {q} contains {term}, which the potential energy gives already: "
+                f"{'gravity' if weight else 'this force'} is counted twice; keep it in V or in forces, not in both"
+            )
