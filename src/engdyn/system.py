@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
     from engdyn.analysis.branches import BranchSet
     from engdyn.analysis.equilibrium import EquilibriumSet
+    from engdyn.analysis.time_history import TimeHistory
 
 __all__ = ["System"]
 
@@ -220,6 +221,32 @@ class System:
 
         complete, question = self._question(values, inputs, parameter)
         return continue_equilibria(self.equations, complete, parameter, range, **question)
+
+    def simulate(
+        self,
+        initial: tuple[Any, Any],
+        times: Any,
+        values: Mapping[str, float] | None = None,
+        inputs: Mapping[str, Any] | None = None,
+        **options: Any,
+    ) -> TimeHistory:
+        """Motion over time, with the balance of energy (chapter 8).
+
+        Parameters
+        ----------
+        initial : (q, u)
+            Coordinates [m, rad] and speeds at ``times[0]``.
+        times : array_like
+            When the motion is wanted [s].
+        values : mapping of str to float, optional
+            Parameters by name [SI]; the defaults where not given.
+        inputs, **options
+            As for :func:`engdyn.simulate`.
+        """
+        from engdyn.analysis.simulation import simulate
+
+        self._check_inputs(inputs or {})
+        return simulate(self.equations, initial, times, self.complete(values), inputs, **options)
 
     def _question(
         self, values: Mapping[str, float] | None, inputs: Mapping[str, Any], varied: str | None = None

@@ -33,7 +33,9 @@ def test_bad_bounds_are_refused(bounds, message):
 
 def test_missing_bounds_are_asked_for_by_name():
     case = small.sprung_double_pendulum()
-    with pytest.raises(ed.EngdynError, match=r"bounds for theta2: bounds=\{'theta2': \(lower, upper\)\}"):
+    with pytest.raises(
+        ed.EngdynError, match=r"bounds for theta2 to engdyn.equilibria: bounds=\{'theta2': \(lower, upper\)\}"
+    ):
         ed.equilibria(case.eom, case.values, {"theta1": (-2.0, 2.0)})
 
 
@@ -76,3 +78,13 @@ def test_an_undefined_equation_decides_nothing():
     answer = ed.equilibria(eom, {}, {"x": (-0.5, 1.0)})
     assert not answer.certified
     np.testing.assert_allclose([e.q[0] for e in answer], [0.25], atol=1e-12)
+
+
+@pytest.mark.parametrize("argument", ["bounds", "inputs", "rates", "accelerations"])
+@pytest.mark.parametrize("wrong", ["x", [1.0, 2.0], np.ones(3)])
+def test_what_has_names_is_a_mapping(argument, wrong):
+    bar = ed.systems.load("W7")
+    with pytest.raises(ed.EngdynError, match=f"{argument} is .*: give a mapping"):
+        ed.equilibria(bar.equations, bar.values(), **{argument: wrong})
+    with pytest.raises(ed.EngdynError, match="values is 'x': give a mapping"):
+        ed.continue_equilibria(bar.equations, "x", "k", (1.0, 2.0))

@@ -125,3 +125,19 @@ def test_a_force_in_a_fixed_direction_seen_from_turning_coordinates():
 def test_an_equilibrium_of_another_system_is_refused():
     with pytest.raises(ed.EngdynError, match="at has the coordinates theta, the equations x, theta"):
         ed.linearize(ed.systems.load(7).equations, ed.systems.load(3).equilibria()[0])
+
+
+@pytest.mark.parametrize("symbolic", [False, True])
+@pytest.mark.parametrize("value", [float("nan"), float("inf")])
+def test_a_place_that_is_no_number_is_refused(symbolic, value):
+    """Also where nothing depends on that coordinate: the residual would be NaN."""
+    bar = ed.systems.load("W7")
+    with pytest.raises(ed.EngdynError, match="finite number"):
+        ed.linearize(bar.equations, {"s": value}, bar.values(), symbolic=symbolic)
+
+
+@pytest.mark.parametrize("outputs", [0, np.ones(3), ["s"]])
+def test_outputs_have_names(outputs):
+    bar = ed.systems.load("W7")
+    with pytest.raises(ed.EngdynError, match=r"outputs is .* give a mapping"):
+        ed.linearize(bar.equations, {}, bar.values(), outputs=outputs)

@@ -33,7 +33,8 @@ def picture():
 
 def test_words_of_a_figure_are_those_of_its_axes():
     figure = Figure()
-    left, right = figure.subplots(1, 2)
+    left, right, bar = figure.subplots(1, 3)
+    bar.set_ylabel("height [m]")  # of a color bar, say: the words know it
     describe(left, "A line rises from 2 to 3.")
     describe(right, "A line falls.")
     assert ed.plots.alt(left) == "A line rises from 2 to 3."

@@ -150,6 +150,8 @@ def continue_equilibria(
     """
     if not isinstance(eom, EquationsOfMotion):
         raise EngdynError(f"eom is {eom!r}: give EquationsOfMotion, for example system.lagrange()")
+    if not isinstance(values, Mapping):
+        raise EngdynError(f"values is {values!r}: give a mapping of parameter names to numbers in SI units")
     steady = {"inputs": inputs, "rates": rates, "accelerations": accelerations, "free": free}
     symbol, (low, high) = _varied(eom, parameter, steady), _checked_range(parameter, range)
     family = Family(eom, values, symbol, (low, high), bounds, steady, region)

@@ -146,7 +146,9 @@ def _region(
         return bounds[unknown.name]
     if unknown.name in problem.names and _only_in_angles(problem, unknown):
         return (-math.pi, math.pi)
-    advice = f"give bounds for {unknown.name} to engdyn.equilibria: bounds={{{unknown.name!r}: (lower, upper)}}"
+    advice = (
+        f"give bounds for {unknown.name} to engdyn.equilibria: bounds={{{unknown.name!r}: (lower, upper)}}"
+    )
     if unknown.key[2:] == (1,):
         advice += f", or prescribe it: rates={{{unknown.name.removesuffix('_d')!r}: number}}"
     raise EngdynError(advice)

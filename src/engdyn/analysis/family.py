@@ -75,7 +75,8 @@ class Family:
     def _at(self, at: float) -> dict[str, Any]:
         """What is prescribed, in numbers, at one value of the parameter."""
         values = {**self.values, self.parameter: at}
-        return {name: evaluated(given, values, name) for name, given in self.steady.items()}
+        kept = {"free": self.steady["free"]}  # names, no numbers
+        return kept | {k: evaluated(x, values, k) for k, x in self.steady.items() if k not in kept}
 
     def _bounds_at(self, at: float) -> dict[str, tuple[float, float]]:
         return evaluated(self.bounds, {**self.values, self.parameter: at}, "bounds")

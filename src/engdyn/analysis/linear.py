@@ -7,7 +7,7 @@ Course section 5.3.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,8 +17,9 @@ from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.expressions import as_expression
 from engdyn.analysis.equilibrium import Equilibrium
+from engdyn.analysis.outputs import numeric_outputs, with_speeds
 from engdyn.analysis.small_motion import assemble, compiled_blocks, unpacked
-from engdyn.analysis.symbolic import symbolic_matrices
+from engdyn.analysis.symbolic import symbolic_matrices, symbolic_outputs
 from engdyn.errors import EngdynError
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.numbers import input_values, mass_and_force, parameter_values
@@ -49,6 +50,10 @@ class LinearSystem:
     changing_inputs : tuple of str
         Inputs whose matrices depend on time (a force in a fixed direction, seen from turning coordinates);
         numeric input matrices hold their values at t = 0.
+    outputs : tuple of str
+        Names of the expressions that are observed.
+    output_matrices : tuple of six arrays, shape (number of outputs, n, m, m or number of inputs)
+        y = Y₀ q + Y₁ u + Y₂ u̇ + D₀ w + D₁ ẇ + D₂ ẅ; empty without outputs.
     """
 
     mass: Any
@@ -61,6 +66,8 @@ class LinearSystem:
     eom: EquationsOfMotion
     at: Any
     changing_inputs: tuple[str, ...] = ()
+    outputs: tuple[str, ...] = ()
+    output_matrices: tuple[Any, ...] = ()
 
     def __repr__(self) -> str:
         return f"LinearSystem({', '.join(self.coordinates)}; about {self.at!r})"
@@ -84,7 +91,10 @@ def linearize(
     at: Equilibrium | Mapping[str, Any],
     values: Mapping[str, float] | None = None,
     inputs: Mapping[str, Any] | None = None,
+    outputs: Mapping[str, Any] | None = None,
     symbolic: bool = False,
+    *,
+    speeds: Sequence[Any] | None = None,
 ) -> LinearSystem:
     """Linearize equations of motion about an equilibrium or a steady motion.
 
@@ -97,8 +107,13 @@ def linearize(
         Parameters by name [SI]; those of `at` where not given.
     inputs : mapping, optional
         Inputs by name; those of `at` where not given.
+    outputs : mapping of str to sympy.Expr, optional
+        What is observed, in coordinates with two derivatives, inputs and parameters: the force in a spring, the
+        motion, speed or acceleration of a point.
     symbolic : bool
         Keep the parameters as symbols; the values in `at` may then be expressions.
+    speeds : sequence of str or of rates, optional
+        Of a nonholonomic system: coordinates whose rates are the speeds u; those of the equations where not given.
 
     Returns
     -------
@@ -118,22 +133,30 @@ def linearize(
     if not isinstance(eom, EquationsOfMotion):
         raise EngdynError(f"eom is {eom!r}: give EquationsOfMotion, for example system.lagrange()")
     state = _state_at(eom, at)
+    if outputs is not None and not isinstance(outputs, Mapping):
+        raise EngdynError(f"outputs is {outputs!r}: give a mapping of names to expressions")
     if isinstance(at, Equilibrium) and at.regular is not None:
         eom, at = at.regular
         state = _state_at(eom, at)
     given = inputs if inputs is not None else (at.inputs if isinstance(at, Equilibrium) else {})
+    observed: tuple[Any, ...] = ()
     if symbolic:
         matrices = symbolic_matrices(eom, state, given)
+        if outputs:
+            observed = symbolic_outputs(eom, outputs, state, given)
     else:
         if values is None:
             if not isinstance(at, Equilibrium):
                 raise EngdynError("give values: a mapping of coordinates carries no parameters")
             values = at.values
         matrices = _numeric(eom, state, values, given)
+        if outputs:
+            observed = numeric_outputs(eom, outputs, state, values, given, (0.0, *MOMENTS))
         at = _as_equilibrium(eom, state, values, given)
     *matrices, changing = matrices
-    names = tuple(q.func.__name__ for q in eom.coordinates)
-    return LinearSystem(*matrices, names, tuple(w.func.__name__ for w in eom.inputs), eom, at, changing)
+    names, driven = (tuple(f.func.__name__ for f in part) for part in (eom.coordinates, eom.inputs))
+    found = LinearSystem(*matrices, names, driven, eom, at, changing, tuple(outputs or ()), observed)
+    return found if speeds is None else with_speeds(found, speeds)
 
 
 def _state_at(eom: EquationsOfMotion, at: Any) -> list[Any]:
@@ -178,6 +201,8 @@ def _numeric(
         moved, udot = [float(x) for x in state[:split]], [float(x) for x in state[split:]]
     except (TypeError, ValueError) as error:
         raise EngdynError(f"at holds {state}: give numbers, or ask for symbolic=True") from error
+    if not np.all(np.isfinite([*moved, *udot])):
+        raise EngdynError(f"at holds {state}: give finite numbers")
     parameters = parameter_values(eom, values)
 
     def blocks_at(t: float) -> dict[str, np.ndarray]:

@@ -31,8 +31,7 @@ def evaluated(given: Any, values: Mapping[str, float], what: str) -> Any:
 
     Parameters
     ----------
-    given : mapping of str to number, expression, or sequence of these
-        Anything else is returned as it is, for others to refuse.
+    given : mapping of str to number, expression, or sequence of these; or None
     values : mapping of str to float
         Parameters by name [SI].
     what : str
@@ -41,10 +40,12 @@ def evaluated(given: Any, values: Mapping[str, float], what: str) -> Any:
     Raises
     ------
     EngdynError
-        An expression that is no finite real number with these values.
+        No mapping; an expression that is no finite real number with these values.
     """
+    if given is None:
+        return None
     if not isinstance(given, Mapping):
-        return given
+        raise EngdynError(f"{what} is {given!r}: give a mapping of names to numbers or expressions")
     return {name: _evaluated(x, values, f"{what}[{name!r}]") for name, x in given.items()}
 
 

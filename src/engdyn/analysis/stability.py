@@ -14,7 +14,9 @@ from engdyn.analysis.neutral import neutral_eigenvalues
 from engdyn.analysis.rounding import eigenvalue_errors
 from engdyn.errors import EngdynError
 
-__all__ = ["Stability", "stability", "verdict_of"]
+__all__ = ["VERDICTS", "Stability", "stability", "verdict_of"]
+
+VERDICTS = ("asymptotically stable", "marginal", "unstable (divergence)", "unstable (flutter)")
 
 TOLERANCE = 1e-8
 """Real parts below this share of the largest abs(λ) count as zero where no bound of the rounding is given."""

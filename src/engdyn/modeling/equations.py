@@ -20,6 +20,7 @@ from engdyn.algebra.readable import expression
 from engdyn.algebra.ring import Element, Ring
 from engdyn.errors import EngdynError
 from engdyn.modeling.constrained import Constrained
+from engdyn.modeling.energy_balance import Energies
 from engdyn.modeling.state import State, check_coordinates
 
 __all__ = ["EquationsOfMotion"]
@@ -46,6 +47,8 @@ class EquationsOfMotion:
         Prescribed motion → (value, rate, acceleration) expressions that hold where it is not given.
     constrained : Constrained or None
         Under velocity constraints, the equations before they were projected: numbers come from them.
+    energies : Energies or None
+        What Lagrange's equations were derived from: lets a simulation draw up its balance of energy.
     """
 
     coordinates: tuple[sm.Expr, ...]
@@ -58,6 +61,7 @@ class EquationsOfMotion:
     solve_reactions: Callable[[], dict[sm.Symbol, sm.Expr]] | None = None
     defaults: Mapping[sm.Expr, tuple[sm.Expr, sm.Expr, sm.Expr]] = field(default_factory=dict)
     constrained: Constrained | None = None
+    energies: Energies | None = None
 
     @classmethod
     def from_residuals(

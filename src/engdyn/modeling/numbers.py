@@ -14,11 +14,19 @@ from engdyn.algebra.codegen import compile_elements
 from engdyn.algebra.conversion import Converter
 from engdyn.algebra.expressions import as_expression
 from engdyn.errors import EngdynError
+from engdyn.modeling.derivative import derivative_of
 
 if TYPE_CHECKING:
     from engdyn.modeling.equations import EquationsOfMotion
 
-__all__ = ["accelerations", "input_values", "mass_and_force", "parameter_values", "state_derivative"]
+__all__ = [
+    "accelerations",
+    "given_inputs",
+    "input_values",
+    "mass_and_force",
+    "parameter_values",
+    "state_derivative",
+]
 
 
 def parameter_values(eom: EquationsOfMotion, values: Mapping[str, float]) -> list[float]:
@@ -48,15 +56,7 @@ def input_values(
 
     What is not given takes its default (a drive angle Omega*t, say) or is zero.
     """
-    if inputs is not None and not isinstance(inputs, Mapping):
-        raise EngdynError(f"inputs must map input names to numbers, not be a {type(inputs).__name__}")
-    given = dict(inputs or {})
-    known = {w.func.__name__: w for w in eom.inputs}
-    for name in given:
-        if name not in known:
-            raise EngdynError(
-                f"unknown input {name!r}: the equations have {', '.join(sorted(known)) or 'none'}"
-            )
+    given, known = given_inputs(eom, inputs)
     found: list[float] = []
     for name, function in known.items():
         if name in given:
@@ -67,6 +67,22 @@ def input_values(
         else:
             found += [0.0, 0.0, 0.0]
     return found
+
+
+def given_inputs(
+    eom: EquationsOfMotion, inputs: Mapping[str, Any] | None
+) -> tuple[dict[str, Any], dict[str, sm.Expr]]:
+    """What is given, after a check of its names; and the inputs of the equations by name."""
+    if inputs is not None and not isinstance(inputs, Mapping):
+        raise EngdynError(f"inputs must map input names to numbers, not be a {type(inputs).__name__}")
+    given = dict(inputs or {})
+    known = {w.func.__name__: w for w in eom.inputs}
+    for name in given:
+        if name not in known:
+            raise EngdynError(
+                f"unknown input {name!r}: the equations have {', '.join(sorted(known)) or 'none'}"
+            )
+    return given, known
 
 
 def _input_triple(name: str, value: Any) -> list[float]:
@@ -168,32 +184,41 @@ def _states(eom: EquationsOfMotion, q: Any, u: Any) -> tuple[np.ndarray, np.ndar
 
 def state_derivative(eom: EquationsOfMotion, values: Mapping[str, float]) -> Callable[..., np.ndarray]:
     """Implementation of :meth:`EquationsOfMotion.function`."""
-    n, m = len(eom.coordinates), len(eom.speeds)
+    size = len(eom.coordinates) + len(eom.speeds)
     parameters = parameter_values(eom, values)
-    compiled = eom.compiled("math")
-    rest = input_values(eom, None, values)
-    fixed = not eom.defaults
+    p = [*parameters, *input_values(eom, None, values)]
+    function, known = derivative_of(eom).python(p), len(parameters)
+    fixed, as_given = not eom.defaults, True
 
     def derivative(t: float, x: np.ndarray, inputs: Mapping[str, Any] | None = None) -> np.ndarray:
-        now = rest if fixed and inputs is None else input_values(eom, inputs, values, t)
-        if len(x) != n + m:
+        nonlocal as_given
+        if not (fixed and inputs is None and as_given):
+            p[known:], as_given = input_values(eom, inputs, values, t), inputs is None
+        x = np.asarray(x, dtype=float)
+        if x.shape != (size,):
             raise EngdynError(
-                f"the state x holds {len(x)} values: it must hold {n} coordinates and {m} speeds"
+                f"the state x holds {x.size} values: it must hold {len(eom.coordinates)} coordinates and "
+                f"{len(eom.speeds)} speeds"
             )
-        try:
-            flat = compiled(*(float(c) for c in x), *parameters, *now, float(t))
-            mass = np.array(flat[: m * m], dtype=float).reshape(m, m)
-            udot = np.linalg.solve(mass, np.array(flat[m * m : m * m + m], dtype=float))
-        except np.linalg.LinAlgError as error:
-            raise EngdynError(f"singular mass matrix {_at(t, x)}") from error
-        except (ArithmeticError, TypeError, ValueError) as error:
-            raise EngdynError(f"the equations of motion have no finite value {_at(t, x)}: {error}") from error
-        found = np.concatenate([flat[m * m + m : m * m + m + n], udot])
-        if not np.isfinite(found).all():
-            raise EngdynError(f"the equations of motion have no finite value {_at(t, x)}")
+        found = function(float(t), x)
+        if not math.isfinite(sum(found.tolist())) and not np.isfinite(found).all():
+            raise EngdynError(f"{_trouble(eom, x, [*p, float(t)])} {_at(t, x)}")
         return found
 
     return derivative
+
+
+def _trouble(eom: EquationsOfMotion, x: np.ndarray, rest: list[float]) -> str:
+    """Why a state has no derivative."""
+    m = len(eom.speeds)
+    try:
+        mass = np.array(eom.compiled("math")(*x.tolist(), *rest)[: m * m], dtype=float).reshape(m, m)
+        np.linalg.solve(mass, np.zeros(m))
+    except np.linalg.LinAlgError:
+        return "singular mass matrix"
+    except (ArithmeticError, TypeError, ValueError):
+        pass
+    return "the equations of motion have no finite value"
 
 
 def _at(t: float, x: Any) -> str:

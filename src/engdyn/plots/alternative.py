@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from engdyn.errors import EngdynError
 from engdyn.plots.look import style
 
-__all__ = ["alt", "bundle", "describe", "png", "show"]
+__all__ = ["alt", "bundle", "describe", "png", "show", "small"]
 
 DPI = 90
 """Resolution of pictures in notebooks, in dots per inch."""
@@ -51,7 +51,7 @@ def alt(drawn: Axes | Figure) -> str:
     Returns
     -------
     str
-        What the plot functions said about the picture; for axes drawn by other means, title and axis labels.
+        What the plot functions said about the picture; of a picture drawn by other means, titles and axis labels.
 
     Raises
     ------
@@ -59,7 +59,8 @@ def alt(drawn: Axes | Figure) -> str:
         ``drawn`` is neither axes nor figure.
     """
     if isinstance(drawn, Figure):
-        return " ".join(alt(ax) for ax in drawn.axes if ax in _words or _plain(ax)).strip()
+        told = [ax for ax in drawn.axes if ax in _words] or [ax for ax in drawn.axes if _plain(ax)]
+        return " ".join(alt(ax) for ax in told)
     if not isinstance(drawn, Axes):
         raise EngdynError(
             f"{drawn!r} is neither matplotlib Axes nor Figure; give what a plot function returned."
@@ -99,8 +100,8 @@ def png(drawn: Axes | Figure, dpi: float = DPI) -> bytes:
     return stream.getvalue()
 
 
-def _small(picture: bytes) -> bytes:
-    """The same PNG with a palette: a quarter of the size, kind to notebooks in a repository."""
+def small(picture: bytes) -> bytes:
+    """Return the same PNG with a palette: a quarter of the size, kind to notebooks in a repository."""
     from PIL import Image
 
     stream = io.BytesIO()
@@ -112,7 +113,7 @@ def _small(picture: bytes) -> bytes:
 def bundle(drawn: Axes | Figure, dpi: float = DPI) -> tuple[dict[str, str], dict[str, dict[str, str]]]:
     """Return a picture as Jupyter's MIME bundle and metadata: PNG (base64) beside its alternative text."""
     words = alt(drawn)
-    data = {"image/png": base64.b64encode(_small(png(drawn, dpi))).decode("ascii"), "text/plain": words}
+    data = {"image/png": base64.b64encode(small(png(drawn, dpi))).decode("ascii"), "text/plain": words}
     return data, {"image/png": {"alt": words}}
 
 

@@ -35,6 +35,7 @@ def precession_cones(
     momentum: ArrayLike,
     half_axes: tuple[float, float] = (0.6, 1.0),
     view: View | None = None,
+    ax: Axes | None = None,
 ) -> Axes:
     """Draw a body of revolution in free flight with H, ω and its axis, and the cones they trace about H.
 
@@ -48,6 +49,8 @@ def precession_cones(
     half_axes : (float, float)
         Half axes of the body, across and along its axis.
     view : View, optional
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; default: new axes.
 
     Returns
     -------
@@ -79,7 +82,7 @@ def precession_cones(
         f"A body of revolution in free flight: its axis stands at {between[0]:.1f}° and the angular velocity at "
         f"{between[1]:.1f}° from the angular momentum H; both trace cones about H."
     )
-    return sketch(drawn, words, view=view)
+    return sketch(drawn, words, ax, view=view)
 
 
 def bicycle(
@@ -147,6 +150,7 @@ def gyroscope(
     post: float = 0.0,
     words: str = "",
     view: View | None = None,
+    ax: Axes | None = None,
 ) -> Axes:
     """Draw a top on its tip: its angular momentum, its weight, the moment of the weight, the precession.
 
@@ -163,6 +167,8 @@ def gyroscope(
     words : str
         Sentences to add to the text alternative.
     view : View, optional
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; default: new axes.
 
     Returns
     -------
@@ -184,7 +190,7 @@ def gyroscope(
         "the axis, the moment M of its weight is horizontal and square to it; H moves toward M, so the axis precesses "
         f"about the vertical at the rate Omega. {words}"
     )
-    return sketch(drawn, told.strip(), view=view)
+    return sketch(drawn, told.strip(), ax, view=view)
 
 
 def _top_axes(nutation: float, azimuth: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -230,6 +236,7 @@ def sphere_paths(
     labels: Sequence[str],
     words: str,
     view: View | None = None,
+    ax: Axes | None = None,
 ) -> Axes:
     """Draw directions that change, as paths on a unit sphere, with three axes; the far side is not shown.
 
@@ -242,6 +249,8 @@ def sphere_paths(
     words : str
         The picture in a sentence or two.
     view : View, optional
+    ax : matplotlib.axes.Axes, optional
+        Where to draw; default: new axes.
 
     Returns
     -------
@@ -267,7 +276,7 @@ def sphere_paths(
         points = points / lengths[:, None]
         role = ("momentum", "velocity", "acceleration", "coordinate")[k % 4]
         drawn += [sh.Curve(tuple(map(tuple, part)), role=role) for part in _near_side(points, view)]
-    return sketch(drawn, words, view=view)
+    return sketch(drawn, words, ax, view=view)
 
 
 def _unit(vector: ArrayLike, name: str) -> NDArray[np.float64]:
