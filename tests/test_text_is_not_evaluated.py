@@ -57,6 +57,13 @@ DOORS = {
     "rates": lambda text: ed.equilibria(crane().equations, crane().values(), rates={"x": text}),
     "range": lambda text: crane().branches("m", (text, 2)),
     "inertia": lambda text: ed.inertia_tensor([text], [(1, 2, 3)]),
+    "inputs over time": lambda text: crane().simulate(([0, 0], [0, 0]), [0, 1], inputs={"F": text}),
+    "inputs of three parts": lambda text: crane().simulate(
+        ([0, 0], [0, 0]), [0, 1], inputs={"F": (text, 0, 0)}
+    ),
+    "events": lambda text: crane().simulate(([0, 0], [0, 0]), [0, 1], events=[text]),
+    "outputs": lambda text: crane().simulate(([0, 0], [0, 0]), [0, 1]).output(text),
+    "names": lambda text: crane().simulate(([0, 0], [0, 0]), [0, 1])[text],
     "system": lambda text: ed.systems.load(text),
 }
 

@@ -119,6 +119,45 @@ def analyze(
 
 
 @app.command()
+def spectrum(
+    file: Annotated[Path, typer.Argument(help="A record: CSV, TSV, WAV, MAT, NPZ, UFF, TDMS ...")],
+    channel: Annotated[
+        str | None, typer.Option(help="One channel, by name or number (default: all).")
+    ] = None,
+    rate: Annotated[
+        float | None, typer.Option(help="Samples per second, where the file does not say.")
+    ] = None,
+    unit: Annotated[str | None, typer.Option(help="Unit of the samples, in place of the file's.")] = None,
+    resample: Annotated[
+        float | None, typer.Option(help="Samples per second to interpolate on, where times are uneven.")
+    ] = None,
+    window: Annotated[str, typer.Option(help="hann, boxcar, hamming, flattop ...")] = "hann",
+    segment: Annotated[int | None, typer.Option(help="Samples of a segment (default: 16 averages).")] = None,
+    overlap: Annotated[float, typer.Option(help="Part that neighboring segments share.")] = 0.5,
+    out: Annotated[Path | None, typer.Option(help="Report to write (default: NAME_spectrum.html).")] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace the files if they are there.")] = False,
+) -> None:
+    """Take a measured file through chapter 9: an HTML report, and the numbers as CSV."""
+    from .course.spectrum_report import write_spectrum_report
+
+    chosen = int(channel) if channel is not None and channel.isdigit() else channel
+    for written in write_spectrum_report(
+        file,
+        out,
+        channel=chosen,
+        rate=rate,
+        unit=unit,
+        resample=resample,
+        window=window,
+        segment=segment,
+        overlap=overlap,
+        force=force,
+        progress=_step if sys.stderr.isatty() else None,
+    ):
+        print(f"wrote {written}")
+
+
+@app.command()
 def matrix(
     systems: Annotated[
         list[str] | None, typer.Argument(metavar="[KEY]...", help="Systems; all of the catalogue if none.")

@@ -10,12 +10,12 @@ from typing import Any
 
 from engdyn.errors import ParameterError
 
-__all__ = ["to_si"]
+__all__ = ["si_factor", "to_si"]
 
 #: A number, then a unit: names with exponents of one digit, products and quotients.  Nothing else is
 #: handed on, so there is nothing to compute with; the possessive ``++`` keeps long nonsense cheap.
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,4})?"
-UNIT = r"(?:[A-Za-zµμΩ°%]++(?:\s*(?:\*\*|\^)\s*-?\d(?!\d)|[²³])?|[\s*·/()]|1(?=\s*/))*"
+UNIT = r"(?:[A-Za-zµμΩ°%]++(?:\s*(?:\*\*|\^)\s*-?\d(?!\d)|[²³])?|\)\s*(?:\*\*|\^)\s*-?\d(?!\d)|[\s*·/()]|1(?=\s*/))*"
 TEXT = re.compile(rf"\s*({NUMBER})\s*({UNIT})\s*", re.ASCII)
 
 
@@ -59,6 +59,29 @@ def to_si(value: Any, unit: str, name: str) -> float:
     if not math.isfinite(number):
         raise ParameterError(f"{name} is {number}: give a finite number in {unit}")
     return number
+
+
+def si_factor(unit: str) -> float | None:
+    """How many SI units one of this unit is: 0.001 for "mm", 1 for "N m"; None where it is not known.
+
+    Parameters
+    ----------
+    unit : str
+        "-" for none.
+
+    Notes
+    -----
+    Appendix C.  Of units with an offset, such as degC, the factor is that of differences.
+    """
+    if unit == "-":
+        return 1.0
+    if len(unit) > 100 or not re.fullmatch(UNIT, unit, re.ASCII) or not unit.strip():
+        return None
+    try:
+        one, two = (_registry().Quantity(x, unit).to_base_units().magnitude for x in (1.0, 2.0))
+        return float(two - one)
+    except Exception:  # pint raises many kinds of errors on units it does not know
+        return None
 
 
 def _from_number(value: Any, unit: str, name: str) -> float:

@@ -69,8 +69,19 @@ def test_chapter_4_runs_and_its_slider_moves_the_picture(lab_page):
     assert lab_page.foreign_hosts == set()
 
 
-@pytest.mark.parametrize("name", ["01_kinematics", "02_newton", "03_lagrange", "B_inertia"])
-def test_part_one_runs_from_top_to_bottom(lab_page, name):
+@pytest.mark.parametrize(
+    "name",
+    [
+        "01_kinematics",
+        "02_newton",
+        "03_lagrange",
+        "05_stability",
+        "06_mode_shapes",
+        "A_representative_systems",
+        "B_inertia",
+    ],
+)
+def test_it_runs_from_top_to_bottom(lab_page, name):
     lab_page.open(f"notebooks/{name}.ipynb")
     lab_page.run_all()
     assert lab_page.errors() == []

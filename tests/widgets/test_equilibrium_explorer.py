@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 
 import engdyn as ed
 from engdyn.widgets import explorer as frame
-from engdyn.widgets.equilibrium_explorer import find, slider
+from engdyn.widgets.equilibrium_explorer import find
+from engdyn.widgets.system_explorer import slider
 
 CRITICAL = math.sqrt((1.2 + 3.0) * 9.81 / (1.2 * 0.25))
 

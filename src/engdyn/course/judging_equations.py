@@ -12,11 +12,11 @@ from sympy.physics.vector import dynamicsymbols
 
 from engdyn.algebra.expressions import as_expression
 from engdyn.course.case import Case
-from engdyn.course.dimensions import DimensionMismatch, dimension_of, system_dimensions
 from engdyn.course.equation_hints import explain, residuals, same_motion
 from engdyn.course.formula import FormulaError
 from engdyn.course.sameness import CLOSE, ENOUGH, TERMS, cost
 from engdyn.course.verdict import Verdict, not_yet, right
+from engdyn.dimensions import DimensionMismatch, dimension_of, system_dimensions
 from engdyn.modeling.equality import prove_equal
 from engdyn.modeling.equations import EquationsOfMotion
 

@@ -15,10 +15,14 @@ import sympy as sm
 from scipy.spatial.transform import Rotation
 from sympy.physics.vector import ReferenceFrame, dynamicsymbols
 
+from engdyn.analysis.characteristic import characteristic_polynomial
+from engdyn.analysis.damped_modes import damped_modes
 from engdyn.analysis.linear import linearize
 from engdyn.analysis.results import Equilibrium
+from engdyn.analysis.routh import routh_table
 from engdyn.analysis.stability import stability
-from engdyn.errors import EngdynError
+from engdyn.course import matrix_motion as motion
+from engdyn.course.failure import CORRUPTION, CheckFailure
 from engdyn.modeling.equality import prove_equal
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.instants import components, motion_at, rotation_matrix
@@ -27,22 +31,15 @@ from engdyn.modeling.lagrange import lagrange
 from engdyn.modeling.motion import VectorPath, path_of_point
 from engdyn.system import System
 
-__all__ = ["CHECKS", "CheckFailure"]
+__all__ = ["CHECKS"]
 
 STEP = 3e-5
 """Of finite differences in time [s]; their error is of second order."""
 
-CORRUPTION = 1.01
-"""What a corrupted input is multiplied with."""
-
-
-class CheckFailure(EngdynError):
-    """An analysis gave what it must not give."""
-
 
 def _compare(found: Any, expected: Any, tolerance: float, what: str) -> None:
     """Raise unless two arrays agree on the scale of their largest entry."""
-    found, expected = np.asarray(found, float), np.asarray(expected, float)
+    found, expected = np.asarray(found), np.asarray(expected)
     scale = float(np.max(np.abs([found, expected]), initial=1e-3))
     error = float(np.max(np.abs(found - expected), initial=0.0)) / scale
     if not error <= tolerance:
@@ -181,7 +178,7 @@ def _compare_accelerations(eom: EquationsOfMotion, state: Equilibrium, what: str
 
 
 def small_motion(system: System, corrupt: bool) -> str:
-    """State matrix of every equilibrium against differences of the nonlinear equations.
+    """State matrix of every equilibrium against differences of the nonlinear equations, eigenvalues against Routh.
 
     Corrupted, it belongs to parameters that are up to one percent larger, each by another part of it.
     """
@@ -192,7 +189,12 @@ def small_motion(system: System, corrupt: bool) -> str:
         linear = linearize(system.equations, state, values)
         what = f"the state matrix of equilibrium {number}"
         _compare(linear.state_matrix, _slopes(system, state), 1e-5, what)
-        verdicts.append(stability(linear).verdict)
+        judged = stability(linear)
+        growing = int(np.sum(judged.eigenvalues.real > 10 * judged.errors))
+        counted = routh_table(characteristic_polynomial(linear)).right_half_plane
+        if counted != growing:
+            raise CheckFailure(f"equilibrium {number}: {growing} eigenvalues grow, Routh counts {counted}")
+        verdicts.append(judged.verdict)
     if not verdicts:
         raise CheckFailure("no equilibrium to linearize about")
     told = {verdict: verdicts.count(verdict) for verdict in verdicts}
@@ -214,14 +216,41 @@ def _slopes(system: System, state: Equilibrium) -> np.ndarray:
     return (4 * fine - coarse) / 3
 
 
+def modes_of(system: System, corrupt: bool) -> str:
+    """Modes of the first equilibrium, the first stable one where there is one, as solutions of the equations.
+
+    Every right and left shape must satisfy the differences of the nonlinear equations, and shapes of different
+    modes must be orthogonal. Corrupted, one component of the first shape is one percent larger.
+    """
+    states = system.equilibria()
+    judged = [(state, linearize(system.equations, state)) for state in states]
+    state, linear = next((s for s in judged if stability(s[1]).stable), judged[0])
+    found, A = damped_modes(linear), _slopes(system, state)
+    right, left, values = found.state_shapes.copy(), found.left_shapes, found.eigenvalues
+    if corrupt and len(values):
+        right[np.argmax(np.abs(right[:, 0])), 0] *= CORRUPTION
+    elif corrupt:
+        A = CORRUPTION * A
+    for vectors, matrix, what in ((right, A, "shapes"), (left, A.T, "left shapes")):
+        size = np.linalg.norm(A, 2) * np.linalg.norm(vectors, axis=0)
+        error = np.max(np.linalg.norm(matrix @ vectors - vectors * values, axis=0) / size, initial=0.0)
+        if not error < 1e-6:
+            raise CheckFailure(f"the {what} do not solve the equations of small motion: {error:.2g} off")
+    _compare(left.T @ right, np.eye(len(values)), 1e-6, "the product of left and right shapes")
+    total = np.sum(found.real_eigenvalues) + 2 * np.sum(values.real)
+    if not abs(total - np.trace(A)) < 1e-6 * np.linalg.norm(A):
+        raise CheckFailure("the eigenvalues do not sum up to the trace of the state matrix")
+    return f"{len(values)} modes, {len(found.real_eigenvalues)} real eigenvalues"
+
+
 CHECKS: dict[str, tuple[str, Callable[[System, bool], str] | None]] = {
     "kinematics": ("Kinematics", kinematics),
     "derivation": ("Newton = Lagrange", derivation),
     "equilibria": ("Equilibria", equilibria),
     "stability": ("Stability", small_motion),
-    "modes": ("Modes", None),
-    "response": ("Frequency response", None),
-    "simulation": ("Simulation", None),
-    "measured": ("Measured data", None),
+    "modes": ("Modes", modes_of),
+    "response": ("Frequency response", motion.response),
+    "simulation": ("Simulation", motion.simulation),
+    "measured": ("Measured data", motion.measured),
 }
 """Analyses in the order of the course: name → (heading, check); an analysis without a check is not built yet."""

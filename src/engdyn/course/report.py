@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import html
-import os
-import tempfile
 from collections.abc import Callable
-from importlib import resources
 from pathlib import Path
-from string import Template
 from typing import Any
 
 import engdyn
@@ -19,6 +15,7 @@ from engdyn.course import report_model as model
 from engdyn.course import report_pictures as pictures
 from engdyn.course import report_results as results
 from engdyn.course.report_matrices import small_motion
+from engdyn.course.report_page import checked_target, page, write_text
 from engdyn.course.report_tables import paragraph
 from engdyn.errors import EngdynError
 from engdyn.modeling.equality import Proof, prove_equal
@@ -65,30 +62,8 @@ def write_report(
     All parts of the course.  Nothing is left half-written: the file appears when it is complete.
     """
     system = key if isinstance(key, System) else engdyn.systems.load(key)
-    target = _checked_target(out, force)
-    text = report(system, progress)
-    descriptor, name = tempfile.mkstemp(prefix=f".{target.name}.", dir=target.parent)
-    try:
-        with os.fdopen(descriptor, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-        os.chmod(name, 0o644)
-        os.replace(name, target)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
-    return target
-
-
-def _checked_target(out: str | Path, force: bool) -> Path:
-    target = Path(out)
-    if target.is_dir():
-        raise EngdynError(f"{target} is a folder: name a file in it, for example {target / 'report.html'}")
-    if not target.absolute().parent.is_dir():
-        raise EngdynError(
-            f"the folder {target.absolute().parent} does not exist: make it, or write elsewhere"
-        )
-    if target.exists() and not force:
-        raise EngdynError(f"{target} exists and was not touched: name another file, or give force=True")
+    target = checked_target(out, force)
+    write_text(target, report(system, progress))
     return target
 
 
@@ -179,32 +154,18 @@ def _page(
     found: EquilibriumSet,
     judged: list[Stability],
 ) -> str:
-    listed = "".join(
-        f'<li><a href="#s{i}">{html.escape(title)}</a></li>' for i, (title, _) in enumerate(parts, 1)
-    )
-    body = _summary(system, proof, found, judged) + f'<nav aria-label="Contents"><ol>{listed}</ol></nav>'
-    for i, (title, text) in enumerate(parts, 1):
-        heading = f'<h2 id="s{i}"><span class="number">{i}</span>{html.escape(title)}</h2>'
-        body += f"\n<section>{heading}\n{text}</section>"
-    template = Template(resources.files("engdyn.course").joinpath("report_template.html").read_text("utf-8"))
-    label = f"S{system.number:02d} · {system.key}" if system.number else system.key
-    return template.substitute(
-        version=engdyn.__version__,
-        title=html.escape(system.title),
-        label=html.escape(label),
-        subtitle=html.escape(system.field),
-        body=body,
-        footer=f"Made by <code>engdyn analyze</code>, engdyn {engdyn.__version__}. SI units, angles in rad.",
-    )
-
-
-def _summary(system: System, proof: Proof | None, found: EquilibriumSet, judged: list[Stability]) -> str:
-    free = len(system.coordinates) - len(system.constraints)
-    entries = [("degrees of freedom", str(free))]
+    entries = [("degrees of freedom", str(len(system.coordinates) - len(system.constraints)))]
     if proof is not None:
         entries.append(("Newton–Euler = Lagrange", proof.verdict))
     count = f"{len(found)}{', certified to be all' if found.certified else ', not certified'}"
     entries.append(("equilibria", count))
     entries.append(("of these stable", str(sum(each.stable for each in judged))))
-    cells = "".join(f"<div><dt>{name}</dt><dd>{value}</dd></div>" for name, value in entries)
-    return f'<dl class="summary">{cells}</dl>'
+    label = f"S{system.number:02d} · {system.key}" if system.number else system.key
+    return page(
+        parts,
+        title=system.title,
+        label=label,
+        subtitle=system.field,
+        summary=entries,
+        command="engdyn analyze",
+    )

@@ -19,7 +19,7 @@ from engdyn.plots.look import new_axes
 from engdyn.quantities import Parameter
 from engdyn.system import System
 
-__all__ = ["branch_figure", "branch_question", "drawing_figure", "poses_figure", "potential_figure"]
+__all__ = ["branch_figure", "branch_question", "drawing_figure", "figure", "poses_figure", "potential_figure"]
 
 DPI = 110
 """Resolution of the pictures."""
@@ -31,7 +31,7 @@ SAMPLES = (0.5, 0.7, 1.4, 2.0)
 """Multiples of a parameter's default at which equilibria are compared with those at the default."""
 
 
-def _figure(ax: Axes, caption: str) -> str:
+def figure(ax: Axes, caption: str) -> str:
     """A picture with its caption; both the picture and its words travel inside the file."""
     data = base64.b64encode(png(ax, DPI)).decode("ascii")
     words = html.escape(alt(ax), quote=True)
@@ -46,7 +46,7 @@ def drawing_figure(system: System) -> str:
         ax = draw(system)
     except EngdynError:
         return ""
-    return _figure(ax, "The system with its coordinates, parameters and inputs.")
+    return figure(ax, "The system with its coordinates, parameters and inputs.")
 
 
 def poses_figure(system: System, found: Sequence[Any], verdicts: Sequence[str]) -> str:
@@ -60,7 +60,7 @@ def poses_figure(system: System, found: Sequence[Any], verdicts: Sequence[str]) 
         ax = equilibrium_poses(system, [s for s, _ in shown], judged=[v for _, v in shown])
     except EngdynError:
         return ""
-    return _figure(ax, caption if len(found) > 1 else "The system in its equilibrium.")
+    return figure(ax, caption if len(found) > 1 else "The system in its equilibrium.")
 
 
 def potential_figure(system: System, found: Sequence[Any]) -> str:
@@ -80,7 +80,7 @@ def potential_figure(system: System, found: Sequence[Any]) -> str:
     others = "" if len(system.coordinates) <= len(over) else ", the other coordinates as in equilibrium 1"
     if not any(c.bounds is not None and c.name not in over for c in system.coordinates):
         others = ""
-    return _figure(ax, f"The {what}{others}: equilibria are its stationary points, stable ones its wells.")
+    return figure(ax, f"The {what}{others}: equilibria are its stationary points, stable ones its wells.")
 
 
 def _is_stationary(energy: Any, q: np.ndarray) -> bool:
@@ -155,4 +155,4 @@ def branch_figure(system: System, parameter: Parameter) -> str:
     coordinate = system.coordinates[int(np.argmax(spread / np.array(widths)))]
     ax = branches(found, coordinate.name, new_axes(), system=system)
     caption = f"Equilibria over {parameter.name} ({parameter.meaning}), from half to twice its default."
-    return _figure(ax, caption)
+    return figure(ax, caption)

@@ -10,15 +10,15 @@ from typing import Any
 import sympy as sm
 
 from engdyn.course.case import Case
-from engdyn.course.dimensions import (
+from engdyn.course.evaluation import NoValueError, evaluate, real
+from engdyn.course.sameness import ROUNDED, agree, value_pairs
+from engdyn.dimensions import (
     DimensionMismatch,
     dimension_of,
     dimension_of_unit,
     system_dimensions,
     unit_text,
 )
-from engdyn.course.evaluation import NoValueError, evaluate, real
-from engdyn.course.sameness import ROUNDED, agree, value_pairs
 
 __all__ = ["ratio_in_words", "strongest_statement"]
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,19 +17,14 @@ from engdyn.plots.axes import MARKS, is_stable
 from engdyn.plots.equilibria import branches, equilibrium_poses, verdicts
 from engdyn.plots.words import number, plain_verdict, quantity
 from engdyn.system import System
-from engdyn.systems.library import catalogue, load
-from engdyn.widgets.controls import Choice, Control, Slider
-from engdyn.widgets.explorer import Explorer
+from engdyn.widgets.controls import Choice, Control
+from engdyn.widgets.system_explorer import SystemExplorer, interesting, slider
 
 if TYPE_CHECKING:
     from engdyn.analysis.branches import BranchSet
     from engdyn.analysis.equilibrium import Equilibrium
-    from engdyn.quantities import Parameter
 
-__all__ = ["EquilibriumExplorer", "Found", "equilibrium", "find", "slider"]
-
-INTERESTING = ("rad/s", "m/s", "m/s^2", "N m/rad", "N/m", "rad", "m")
-"""Units of the parameter that is followed at first: what moves, then what is stiff, then what is long."""
+__all__ = ["EquilibriumExplorer", "Found", "equilibrium", "find"]
 
 MANY = 6
 """So many equilibria are told one by one."""
@@ -52,69 +46,23 @@ class Found:
     late: bool
 
 
-def slider(parameter: Parameter) -> Slider:
-    """Return a slider for a parameter: its span, or 0 (what must be positive: 0.2) to 2.5 times the default.
-
-    A default of zero tells no scale: such a parameter goes up to 10 in its unit, or from -10 if it may be
-    negative.
-    """
-    default = float(parameter.default)
-    if parameter.span is not None:
-        low, high = parameter.span
-        step = abs(default) / 50.0 or (high - low) / 100.0
-    elif default == 0.0:
-        low, high, step = (-10.0 if parameter.admissible == "any" else 0.0), 10.0, 0.1
-    else:
-        low, high = sorted((0.2 * default if parameter.admissible == "positive" else 0.0, 2.5 * default))
-        step = abs(default) / 50.0
-    return Slider(parameter.name, low, high, default, parameter.unit, parameter.meaning, step)
-
-
 def find(system: System, values: Mapping[str, float]) -> tuple[Any, list[str]]:
     """Return all equilibria at these values and the stability verdict of each."""
     found = system.equilibria(values)
     return found, verdicts(system, found)
 
 
-class EquilibriumExplorer(Explorer):
+class EquilibriumExplorer(SystemExplorer):
     """See `equilibrium`."""
 
     title = "Equilibria"
-    structural = ("system",)
 
     def __init__(self, system: str | int | System = "S07", **values: Any) -> None:
-        self._own: dict[str, System] = {}
-        self._systems: dict[str, System] = {}
         self._followed: dict[tuple, tuple[BranchSet | None, str]] = {}
-        super().__init__(system=system, **values)
-
-    def set(self, **values: Any) -> None:
-        if "system" in values:
-            values["system"] = self._named(values["system"])
-        super().set(**values)
-
-    def _named(self, system: Any) -> str:
-        """Return the name of a system among the choices; one that is not of the catalogue joins them."""
-        if isinstance(system, str) and system in self._own:
-            return system
-        found = system if isinstance(system, System) else load(system)
-        if not isinstance(system, System) and found.number is not None:
-            return f"S{found.number:02d}"
-        self._own[found.key] = self._systems[found.key] = found
-        self._followed.clear()
-        return found.key
-
-    def system(self, name: str) -> System:
-        """Return the system behind a choice."""
-        if name not in self._systems:
-            self._systems[name] = load(name)
-        return self._systems[name]
+        super().__init__(system, **values)
 
     def controls(self, chosen: Mapping[str, Any]) -> Sequence[Control]:
-        own = [(system.title, key) for key, system in self._own.items()]
-        known = [(f"{name} {row.title}", name) for name, row in _catalogue().iterrows()]
-        options = (*own, *known)
-        choice = Choice("system", options, options[0][1], "system whose equilibria are shown")
+        choice = self.system_choice("system whose equilibria are shown")
         if "system" not in chosen:
             return [choice]
         system = self.system(chosen["system"])
@@ -123,13 +71,15 @@ class EquilibriumExplorer(Explorer):
         seen = tuple((f"{c.name} ({c.meaning})", c.name) for c in shown)
         return [
             choice,
-            Choice("over", names, _interesting(system), "parameter along which the equilibria are followed"),
+            Choice(
+                "over", names, interesting(system)[0], "parameter along which the equilibria are followed"
+            ),
             Choice("coordinate", seen, seen[0][1], "coordinate that the diagram shows"),
             *(slider(p) for p in system.parameters),
         ]
 
     def model(self, state: Mapping[str, Any]) -> Found:
-        system, values = self.system(state["system"]), self._values(state)
+        system, values = self.system(state["system"]), self.parameter_values(state)
         found, judged = find(system, values)
         key = self._branch_key(state)
         # Following takes some tenths of a second: while a slider is dragged it waits.
@@ -141,18 +91,14 @@ class EquilibriumExplorer(Explorer):
             tuple(found), tuple(judged), found.certified, len(found.undecided), branch_set, trouble, late
         )
 
-    def _values(self, state: Mapping[str, Any]) -> dict[str, float]:
-        return {p.name: state[p.name] for p in self.system(state["system"]).parameters}
-
     def _branch_key(self, state: Mapping[str, Any]) -> tuple:
-        others = tuple((n, v) for n, v in self._values(state).items() if n != state["over"])
-        return state["system"], state["over"], others
+        others = tuple((n, v) for n, v in self.parameter_values(state).items() if n != state["over"])
+        return self.system(state["system"]), state["over"], others
 
     def _follow(self, key: tuple) -> tuple[BranchSet | None, str]:
         """Return the branches, or why there are none; the last few are remembered."""
         if key not in self._followed:
-            name, over, others = key
-            system = self.system(name)
+            system, over, others = key
             control = slider(next(p for p in system.parameters if p.name == over))
             values = {**dict(others), over: control.value}
             try:
@@ -199,6 +145,16 @@ class EquilibriumExplorer(Explorer):
             marks += ax.plot([here], [found.q[index]], marker="o", markeredgewidth=2.0, clip_on=False, **look)
         return marks
 
+    def lines(self, state: Mapping[str, Any]) -> list[str]:
+        over = self._controls[state["over"]]
+        return [
+            *self.loading(state),
+            "found = system.equilibria(values)",
+            "ed.plots.show(ed.plots.equilibrium_poses(system, found))",
+            f'branches = system.branches("{over.name}", ({over.low:.10g}, {over.high:.10g}), values)',
+            f'ed.plots.show(ed.plots.branches(branches, "{state["coordinate"]}", system=system))',
+        ]
+
     def caption(self, state: Mapping[str, Any]) -> str:
         system, over = self.system(state["system"]), self._controls[state["over"]]
         return f"{system.title}, {quantity(over.name, state[over.name], over.unit)}"
@@ -235,22 +191,6 @@ def _doubt(result: Found) -> str:
         return ""
     regions = f"{result.undecided} region{'' if result.undecided == 1 else 's'} could not be decided"
     return f" Not certified to be all: {regions}." if result.undecided else " Not certified to be all."
-
-
-@lru_cache(maxsize=1)
-def _catalogue() -> Any:
-    return catalogue()
-
-
-def _interesting(system: System) -> str:
-    """Return the parameter to follow at first."""
-    names = {
-        unit: p.name
-        for unit in INTERESTING
-        for p in reversed(system.parameters)
-        if p.unit == unit and p.name != "g"
-    }
-    return next(iter(names.values()), system.parameters[0].name)
 
 
 def equilibrium(system: str | int | System = "S07", **values: float) -> EquilibriumExplorer:

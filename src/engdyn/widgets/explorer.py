@@ -1,8 +1,8 @@
 """The frame of all explorers: controls, one picture drawn again and again into the same figure, and words.
 
-An explorer is a class with five small methods: `controls` says what can be set, `model` computes (and knows
-nothing of pictures), `draw_static` and `draw_moving` draw, `words` tells. All of them are driven by ``set``
-without a browser.
+An explorer is a class with a few small methods: `controls` says what can be set, `model` computes (and knows
+nothing of pictures), `draw_static` and `draw_moving` draw, `words` tells, `lines` writes the same as code. All of
+them are driven by ``set`` without a browser.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import asyncio
 import base64
 import html
 import io
+import warnings
 from abc import ABC, abstractmethod
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from typing import Any
@@ -21,7 +22,8 @@ from matplotlib.artist import Artist
 from matplotlib.figure import Figure
 from PIL import Image
 
-from engdyn.errors import EngdynError
+from engdyn.errors import EngdynError, EngdynWarning
+from engdyn.plots.alternative import small
 from engdyn.plots.look import new_figure, style
 from engdyn.plots.words import number
 from engdyn.widgets.controls import Choice, Control, Slider
@@ -69,9 +71,9 @@ class Explorer(ABC):
     def draw_static(self, figure: Figure, state: Mapping[str, Any], result: Any) -> None:
         """Draw, into an empty figure, what stays while `static_key` is the same."""
 
-    @abstractmethod
     def draw_moving(self, figure: Figure, state: Mapping[str, Any], result: Any) -> Iterable[Artist]:
-        """Draw the rest and return its artists, lowest first."""
+        """Draw the rest and return its artists, lowest first; by default there is none."""
+        return ()
 
     def caption(self, state: Mapping[str, Any]) -> str:
         """Say what is being looked at, as a heading for the words; by default nothing."""
@@ -80,6 +82,10 @@ class Explorer(ABC):
     @abstractmethod
     def words(self, state: Mapping[str, Any], result: Any) -> str:
         """Tell the result in a sentence or two."""
+
+    @abstractmethod
+    def lines(self, state: Mapping[str, Any]) -> Sequence[str]:
+        """Return the lines of engdyn that compute and draw what is seen, after ``import engdyn as ed``."""
 
     def static_key(self, state: Mapping[str, Any], result: Any) -> Hashable:
         """Return what `draw_static` depends on; by default everything, so that nothing is reused."""
@@ -159,11 +165,17 @@ class Explorer(ABC):
         """The present picture in words."""
         return self._text
 
+    @property
+    def code(self) -> str:
+        """The lines of engdyn that make the present picture, to be run in a cell of one's own."""
+        return "\n".join(["import engdyn as ed", *self.lines(self._state)])
+
     def _render(self, changed: Sequence[str]) -> None:
         if self._pending is not None:
             self._pending.cancel()
             self._pending = None
-        with style():
+        with style(), warnings.catch_warnings(record=True) as heard:
+            warnings.simplefilter("always", EngdynWarning)
             try:
                 result = self.model(self._state)
                 told = self.words(self._state, result)
@@ -171,6 +183,8 @@ class Explorer(ABC):
             except (EngdynError, ArithmeticError, np.linalg.LinAlgError) as error:
                 told = f"Nothing to draw: {error}"
                 self._draw_message(told)
+        remarks = {str(w.message): None for w in heard if issubclass(w.category, EngdynWarning)}
+        told += "".join(f" Note: {remark}." for remark in remarks)
         self._png = _encoded(self.figure)
         caption = self.caption(self._state)
         self._text = f"{self.title}. {caption}: {told}" if caption else f"{self.title}. {told}"
@@ -178,6 +192,11 @@ class Explorer(ABC):
         news = ", ".join(self._in_words(name) for name in changed[:3]) + (" …" if len(changed) > 3 else "")
         before = news or caption
         self._line.value = f"<p role='status'>{html.escape(f'{before}: {told}' if before else told)}</p>"
+        self._show_code()
+
+    def _show_code(self) -> None:
+        shown = f"<pre tabindex='0'>{html.escape(self.code)}</pre>" if self._coding.value else ""
+        self._code.value = shown
 
     def _draw(self, result: Any) -> None:
         canvas, key = self.figure.canvas, self.static_key(self._state, result)
@@ -225,7 +244,12 @@ class Explorer(ABC):
             description="Reset", tooltip="Put all controls back to where they started"
         )
         self._reset.on_click(lambda _: self.reset())
-        self.widget = ipywidgets.VBox([self._choices, self._picture, self._line, self._sliders])
+        self._code = ipywidgets.HTML()
+        self._coding = ipywidgets.ToggleButton(
+            description="Show code", tooltip="Show the lines of engdyn that make this picture"
+        )
+        self._coding.observe(lambda _: self._show_code(), "value")
+        self.widget = ipywidgets.VBox([self._choices, self._picture, self._line, self._sliders, self._code])
 
     def _show_controls(self, controls: Mapping[str, Control]) -> None:
         self._quiet = True
@@ -239,7 +263,7 @@ class Explorer(ABC):
                     kind: [w for n, w in self._widgets.items() if isinstance(controls[n], kind)]
                     for kind in (Choice, Slider)
                 }
-                self._choices.children = (*of[Choice], self._reset)
+                self._choices.children = (*of[Choice], self._reset, self._coding)
                 self._sliders.children = tuple(of[Slider])
                 for widget in old.values():
                     widget.close()
@@ -269,7 +293,9 @@ class Explorer(ABC):
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> tuple[dict, dict]:
         """The live widget, and beside it the picture and its words for readers without a kernel."""
         data = dict(self.widget._repr_mimebundle_() or {})
-        data.update({"text/plain": self._text, "image/png": base64.b64encode(self._png).decode("ascii")})
+        data.update(
+            {"text/plain": self._text, "image/png": base64.b64encode(small(self._png)).decode("ascii")}
+        )
         return data, {"image/png": {"alt": self._text}}
 
 

@@ -4,7 +4,22 @@ from __future__ import annotations
 
 __all__ = ["catalogue"]
 
-NAMES = ("equilibrium",)
+NAMES = (
+    "balance",
+    "eigenvalue_plane",
+    "equilibrium",
+    "free_body",
+    "gyroscope",
+    "inertia",
+    "linearization",
+    "loads",
+    "modes",
+    "motion",
+    "orientation",
+    "pose",
+    "routh",
+    "stability_map",
+)
 
 
 def catalogue() -> list[str]:
