@@ -56,7 +56,7 @@ def shows_something(explorer):
 
 
 @pytest.mark.parametrize(("name", "scene"), SCENES)
-@settings(max_examples=6)
+@settings(max_examples=4)
 @given(rng=st.randoms(use_true_random=False))
 def test_no_position_of_the_controls_raises_or_blanks(explorers, name, scene, rng):
     explorer = explorers[name]

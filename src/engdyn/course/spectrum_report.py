@@ -90,6 +90,14 @@ def write_spectrum_report(
     tell(f"averaging {', '.join(names)}")
     spectra = [averaged_spectrum(record[name], window, segment, overlap) for name in names]
     tell("drawing")
+    write_text(page_file, _page(path, record, names, spectra, segment))
+    write_text(table_file, _numbers(names, record, spectra))
+    return page_file, table_file
+
+
+def _page(
+    path: str | Path, record: Record, names: Sequence[str], spectra: Sequence[AveragedSpectrum], segment: int
+) -> str:
     parts = [
         ("The record", _record_part(record)),
         ("Averaging", _averaging_part(spectra[0], segment, record)),
@@ -112,12 +120,9 @@ def write_spectrum_report(
     ]
     title = f"Spectrum of {Path(path).name}"
     label, kind = f"{len(record.channels)} channel{'s' * (len(record.channels) > 1)}", record.metadata["kind"]
-    told = page(
+    return page(
         parts, title=title, label=label, subtitle=f"{kind} file", summary=summary, command="engdyn spectrum"
     )
-    write_text(page_file, told)
-    write_text(table_file, _numbers(names, record, spectra))
-    return page_file, table_file
 
 
 def default_segment(samples: int) -> int:
