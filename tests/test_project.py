@@ -221,6 +221,17 @@ def test_an_own_system_of_the_readme(tmp_path):
     assert math.isclose(12 * 9.81 * 3 * math.sin(lean), 300 * lean, rel_tol=1e-4)
 
 
+def test_the_tour_of_the_readme(tmp_path):
+    code = re.search(r"```python\n(.*?)```", _text("README.md").split("<!-- tour: tested -->")[1], re.DOTALL)[1]
+    shown = "print(ride.frequency[ride.amplitude.argmax()], bump.audit.error < 1e-6, record.rate)\n"
+    (tmp_path / "tour.py").write_text(code + shown, encoding="utf-8")
+    run = _run("tour.py", folder=tmp_path)
+    assert (run.returncode, run.stderr) == (0, "")
+    bounce, balanced, rate = run.stdout.split()
+    assert 0.9 < float(bounce) < 1.3  # the body's own frequency, with its damping [Hz]
+    assert (balanced, rate) == ("True", "200.0")
+
+
 def test_the_first_example_of_the_readme(tmp_path):
     code = re.search(r"```python\n(.*?)```", _text("README.md"), re.DOTALL)[1]
     shown = "print(crane.prove().verdict, *(round(float(pose.q[1]), 6) for pose in windy))\n"
