@@ -24,14 +24,14 @@ SOURCES = sorted((CHECKOUT / "src" / "engdyn").rglob("*.py"))
 DOCUMENTS = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")
 MODULE_LINES, FUNCTION_LINES = 330, 40  # "about 300"
 ROOM_LINES = {
-    "algebra": 2_150,
-    "modeling": 4_450,
-    "analysis": 3_600,
+    "algebra": 2_200,
+    "modeling": 4_700,
+    "analysis": 5_700,
     "experiment": 2_100,
-    "systems": 4_900,
-    "plots": 3_400,
-    "widgets": 600,
-    "course": 4_050,
+    "systems": 4_950,
+    "plots": 4_150,
+    "widgets": 2_850,
+    "course": 4_300,
     "": 1_550,
 }
 """Lines of code of each room: a companion grows only where somebody decides that it may."""
@@ -222,7 +222,9 @@ def test_an_own_system_of_the_readme(tmp_path):
 
 
 def test_the_tour_of_the_readme(tmp_path):
-    code = re.search(r"```python\n(.*?)```", _text("README.md").split("<!-- tour: tested -->")[1], re.DOTALL)[1]
+    code = re.search(r"```python\n(.*?)```", _text("README.md").split("<!-- tour: tested -->")[1], re.DOTALL)[
+        1
+    ]
     shown = "print(ride.frequency[ride.amplitude.argmax()], bump.audit.error < 1e-6, record.rate)\n"
     (tmp_path / "tour.py").write_text(code + shown, encoding="utf-8")
     run = _run("tour.py", folder=tmp_path)

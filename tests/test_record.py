@@ -58,3 +58,11 @@ def test_unknown_channels_are_named():
     for channel in ("y", 2, -1):
         with pytest.raises(ed.RecordError, match="x, F"):
             record[channel]
+
+
+def test_a_steep_blow_that_clips_is_told_as_clipping():
+    """Flat at full scale between steep edges: the largest magnitude, so no dropout."""
+    x = 0.01 * np.random.default_rng(0).normal(size=400)
+    x[100:120] += 5.0 * np.sin(np.linspace(0.0, np.pi, 20))
+    (seen,) = ed.Record(np.clip(x, -0.5, 0.5), 1000.0, "a", "m/s^2").summary().channels
+    assert (seen.dropouts, seen.clipped) == (0, 18)

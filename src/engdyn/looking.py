@@ -165,12 +165,17 @@ def _flat_at(x: np.ndarray, top: float) -> int:
 
 
 def find_dropouts(x: np.ndarray) -> tuple[int, np.ndarray]:
-    """How many there are, and which samples they hold, shape (N,) of bool."""
+    """How many there are, and which samples they hold, shape (N,) of bool.
+
+    A plateau at the largest magnitude, however steep its edges, is clipping and no dropout.
+    """
     step = np.diff(x)
     edges = np.flatnonzero(step)  # runs of equal samples lie between these
     jump = np.concatenate([[0.0], np.abs(step[edges]), [0.0]])
     length = np.diff(np.concatenate([[-1], edges, [len(x) - 1]]))
+    size = np.abs(x[np.concatenate([[0], edges + 1])])
     held = (length >= HELD) & (np.maximum(jump[:-1], jump[1:]) > JUMP * np.median(jump[1:-1]))
+    held &= size < np.max(np.abs(x))
     return int(np.sum(held)), np.repeat(held, length)
 
 

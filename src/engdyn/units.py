@@ -112,6 +112,10 @@ def _from_text(text: str, unit: str, name: str) -> float:
                 f"{name} = {shown} is a frequency, wanted is {unit}: write it in rad/s, rpm or turn/s "
                 "(1 Hz = 2π rad/s)"
             )
+        if unit.startswith("Hz") and re.search("radian|degree|turn|revolution", str(quantity.units)):
+            raise ParameterError(
+                f"{name} = {shown} is an angular rate, wanted is {unit}: write it in Hz (1 Hz = 60 rpm = 2π rad/s)"
+            )
         return float(quantity.to("dimensionless" if unit == "-" else unit).magnitude)
     except pint.DimensionalityError as error:
         raise ParameterError(

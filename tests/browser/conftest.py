@@ -43,8 +43,10 @@ def lab_page(chromium, lab, tmp_path):
     """A fresh browser page; its last sight stays in the test's tmp_path."""
     context = chromium.new_context(viewport={"width": 1280, "height": 900})
     page = context.new_page()
+    seen = lab_session.LabPage(page, lab)
     try:
-        yield lab_session.LabPage(page, lab)
+        yield seen
     finally:
         page.screenshot(path=tmp_path / "last_sight.png")
         context.close()
+        seen.close()

@@ -35,7 +35,7 @@ FLAGS = [
     "--disable-component-update",
     "--disable-sync",
 ]
-PATIENCE = 120_000  # ms for a page or a whole notebook, on a machine with other things to do
+PATIENCE = 240_000  # ms for a page or a whole notebook, on a machine with other things to do
 CODE_CELLS = ".jp-NotebookPanel:not(.lm-mod-hidden) .jp-CodeCell"
 # JupyterLab gives errors the same type as text on stderr; only errors tell where they come from.
 STDERR = f"{CODE_CELLS} [data-mime-type='application/vnd.jupyter.stderr']"
@@ -154,6 +154,20 @@ class LabPage:
     def _menu(self, title: str, command: str) -> None:
         self.page.locator(".lm-MenuBar-item", has_text=title).first.click()
         self.page.locator(f".lm-Menu-item[data-command='{command}']").click()
+
+    def close(self) -> None:
+        """Stop all kernels: those of notebooks that nobody looks at any more cost memory and time."""
+        for kernel in json.loads(self._ask("GET", "kernels")):
+            self._ask("DELETE", f"kernels/{kernel['id']}")
+
+    def _ask(self, method: str, what: str) -> bytes:
+        request = urllib.request.Request(
+            f"{self.lab.address}/api/{what}",
+            headers={"Authorization": f"token {self.lab.token}"},
+            method=method,
+        )
+        with urllib.request.urlopen(request, timeout=60) as answer:
+            return answer.read()
 
     def errors(self) -> list[str]:
         """Text of every error that a cell shows, and every cell that did not run."""

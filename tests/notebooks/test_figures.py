@@ -24,6 +24,8 @@ PLAN = {
     "09_experimental_data": ([f"9.{k}" for k in range(1, 15)], [f"9.{k}" for k in range(1, 5)]),
     "A_representative_systems": ([f"A.{k}" for k in range(1, 24)], []),
     "B_inertia": (["B.1"], []),
+    "C_units": ([], []),
+    "D_least_squares": (["D.1"], ["D.1"]),
 }
 """Notebook → numbers of its figures, numbers of its tables."""
 
@@ -39,6 +41,8 @@ SECTIONS = {
     "09_experimental_data": 10,
     "A_representative_systems": 23,
     "B_inertia": 4,
+    "C_units": 5,
+    "D_least_squares": 7,
 }
 
 MANY_CLAIMS = 10

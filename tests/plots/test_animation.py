@@ -529,3 +529,9 @@ def test_progress_is_told_to_those_who_watch_and_wait(tmp_path, monkeypatch, cap
     assert out == ""
     assert ("frame 6 of 6" in err) == (watched and patience < 0.0)
     assert bool(err) == (watched and patience < 0.0)
+
+
+@pytest.mark.parametrize(("pose", "shape"), [([0, "a"], [1, 0]), ([0, 0], [[1], [1, 2]])])
+def test_a_mode_of_what_are_no_numbers_is_refused(pose, shape):
+    with pytest.raises(ed.EngdynError, match="must be numbers"):
+        ed.plots.mode_motion(pose, shape, 1.0, system=ed.systems.load("S07"))

@@ -25,6 +25,7 @@ from engdyn.modeling.derivative import Derivative, derivative_of
 from engdyn.modeling.equations import EquationsOfMotion
 from engdyn.modeling.numbers import given_inputs, parameter_values
 from engdyn.record import Record
+from engdyn.units import si_factor
 
 __all__ = ["Plan", "plan_inputs"]
 
@@ -138,7 +139,7 @@ def plan_inputs(
 def _triple(name: str, given: Any, order: int, times: np.ndarray) -> Any:
     """Value, rate and acceleration: floats, expressions, functions, None for what is not needed; or a PPoly."""
     if isinstance(given, Record):
-        return _curve(name, given.time, given.samples, order, times)
+        return _curve(name, given.time, _in_si(name, given), order, times)
     array = isinstance(given, np.ndarray) and given.ndim > 0
     if (array and (len(given) != 3 or len(times) == 3)) or (isinstance(given, list) and len(given) != 3):
         return _curve(name, times, np.asarray(given), order, times)
@@ -157,6 +158,19 @@ def _triple(name: str, given: Any, order: int, times: np.ndarray) -> Any:
     value = _part(name, given)
     t = dynamicsymbols._t
     return (value, 0.0, 0.0) if isinstance(value, float) else (value, value.diff(t), value.diff(t, 2))
+
+
+def _in_si(name: str, record: Record) -> np.ndarray:
+    """Samples of a record in SI units; of one with several channels, which `_curve` refuses, as they are."""
+    if not isinstance(record.unit, str):
+        return record.samples
+    factor = si_factor(record.unit)
+    if factor is None:
+        raise EngdynError(
+            f"input {name} is a Record in {record.unit!r}, which is no unit: write it like mm or N m, or - where the "
+            "samples are in SI units"
+        )
+    return factor * record.samples
 
 
 def _is_function(given: Any) -> bool:

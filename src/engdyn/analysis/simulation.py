@@ -50,10 +50,10 @@ def simulate(
         Parameters by name [SI].
     inputs : mapping, optional
         Input name → a number; an expression in t and parameters (its derivatives are exact); a function of t;
-        an array on `times`, or a Record. A motion that acts by its rate and acceleration, too, is given as
-        (value, rate, acceleration), each a number, expression or function; or as one expression, one array or
-        one Record. Between samples a force is linear and a motion a spline of degree five. What is not given
-        takes its default, or is zero.
+        an array on `times` [SI], or a Record, which says its own unit. A motion that acts by its rate and
+        acceleration, too, is given as (value, rate, acceleration), each a number, expression or function; or as
+        one expression, one array or one Record. Between samples a force is linear and a motion a spline of degree
+        five. What is not given takes its default, or is zero.
     method : {"dop853", "radau", "bdf", "lsoda"}
         Explicit Runge–Kutta of order 8 (5, 3), in machine code where numba is and no input is a function of
         Python; or one of scipy's solvers for stiff equations.

@@ -240,7 +240,10 @@ def mode_motion(
 
 
 def _checked_mode(q0: ArrayLike, shape: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.complex128]]:
-    pose, phi = np.atleast_1d(np.array(q0, float)), np.atleast_1d(np.array(shape, complex))
+    try:
+        pose, phi = np.atleast_1d(np.array(q0, float)), np.atleast_1d(np.array(shape, complex))
+    except (TypeError, ValueError):
+        raise EngdynError("q0 and shape must be numbers, one for each coordinate: give arrays.") from None
     if phi.shape == (2 * len(pose),):
         phi = phi[: len(pose)]
     if pose.ndim != 1 or phi.shape != pose.shape:

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 
 from engdyn.errors import EngdynError
 from engdyn.plots.alternative import describe
-from engdyn.plots.look import FILL, PALETTE, new_axes, new_figure, style
+from engdyn.plots.look import COLORS, FILL, PALETTE, new_axes, new_figure, style
 from engdyn.plots.response_plots import DASHES, _label
 from engdyn.plots.words import number
 
@@ -54,9 +54,12 @@ def folding(rate: float, frequencies: Sequence[float] = (), ax: Axes | None = No
     with style():
         ax.axvspan(0.0, rate / 2, color=FILL["body"], alpha=0.6, label="band of the record", zorder=0)
         ax.plot(folds, alias_frequency(folds, rate), color=PALETTE[0])
+        for a in np.unique(seen):  # one line for all that meet there
+            far = marked[seen == a].max()
+            ax.plot([0.0, far], [a, a], color=COLORS["reference"], linestyle="--", linewidth=1.3)
         for i, (f, a) in enumerate(zip(marked, seen, strict=True)):
             look = {"color": PALETTE[1 + i % 6], "linestyle": "--", "linewidth": 1.3}
-            ax.plot([f, f, 0.0], [0.0, a, a], **look)
+            ax.plot([f, f], [0.0, a], **look)
             text = f"{number(f)} Hz appears at {number(a)} Hz"
             ax.plot([f], [a], MARKERS[i % 7], color=look["color"], label=text, zorder=5)
         ax.set_xlim(0.0, folds[-1])
