@@ -46,7 +46,7 @@ def to_si(value: Any, unit: str, name: str) -> float:
     ------
     ParameterError
         Not a finite number, text that is not a number with a unit, a unit that does not convert, a frequency
-        in hertz where radians per second are wanted.
+        in hertz where radians per second are wanted or the reverse.
 
     Notes
     -----
