@@ -225,3 +225,28 @@ def test_velocities_that_cannot_be_found_are_reported():
 def test_names_of_a_table_must_fit():
     with pytest.raises(ed.EngdynError, match="1 names for 2"):
         ed.step_table(pendulum, START, [0, 1], names=["theta"])
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"end": np.nan}, "end is nan"),
+        ({"end": np.inf}, "end is inf"),
+        ({"x0": []}, "row of finite numbers"),
+        ({"f": lambda t, x: "x"}, "no array of numbers at t = 0 s"),
+    ],
+)
+def test_orders_that_cannot_be_measured(change, message):
+    with pytest.raises(ed.EngdynError, match=message):
+        ed.measure_order(
+            **({"f": pendulum, "x0": START, "end": 1.0, "scheme": "rk4", "counts": [4, 8]} | change)
+        )
+
+
+def test_limits_of_what_is_no_scheme_or_no_number():
+    for ask in (ed.stability_limit, lambda scheme: ed.growth_factor(scheme, 1.0)):
+        with pytest.raises(ed.EngdynError, match="unknown scheme 'rk5'"):
+            ask("rk5")
+    for ask in (lambda x: ed.stability_limit("rk4", x), lambda x: ed.growth_factor("rk4", x)):
+        with pytest.raises(ed.EngdynError, match="must be finite numbers"):
+            ask(np.nan)

@@ -321,6 +321,18 @@ def test_all_ways_to_prescribe_a_motion():
     np.testing.assert_allclose(expected.q[:, 0], oracle[:, 0], atol=1e-8)
 
 
+@pytest.mark.parametrize(("unit", "size"), [("mm", 1e-3), ("-", 1.0), ("m", 1.0), ("ft", 0.3048)])
+def test_a_record_is_taken_in_its_own_unit(unit, size):
+    at = np.arange(-5, 106) / 100
+    motion = 0.02 * np.sin(9 * at)
+    found, expected = (
+        swing(np.linspace(0, 1, 11), base=ed.Record(samples, 100, "base", u, start=-0.05))
+        for samples, u in ((motion / size, unit), (motion, "m"))
+    )
+    np.testing.assert_allclose(found.q, expected.q, atol=1e-12)
+    np.testing.assert_allclose(found["base"], 0.02 * np.sin(9 * found.time), atol=1e-4)
+
+
 def test_a_run_up_needs_the_integral_of_the_speed_as_its_angle():
     """Pitfall 24: sin(Ω(t)·t) turns twice as fast as Ω says; and φ″ exerts forces of its own."""
     feeder, rate = load(19), 40.0
@@ -659,6 +671,12 @@ LONG = np.linspace(0, 1, 11)
         ({"inputs": {"F": np.full(11, np.nan)}}, "not finite"),
         ({"inputs": {"F": ed.Record(np.zeros(5), 10)}}, "known from 0 to 0.4 s"),
         ({"inputs": {"F": ed.Record(np.zeros((20, 2)), 10, ["a", "b"])}}, "one channel"),
+        ({"inputs": {"F": ed.Record(np.zeros(20), 10, "F", "furlong?")}}, "'furlong.', which is no unit"),
+        ({"inputs": {"F": [[1, 2], [3]]}}, "one number for each time"),
+        ({"inputs": {"F": lambda time: 10**400}}, "gives no number at t = 0 s"),
+        ({"eom": "crane"}, "give EquationsOfMotion"),
+        ({"initial": ([10**400], [0.0])}, "pair"),
+        ({"initial": ([[0.0], [1.0]], [0.0])}, "ensemble takes many"),
         ({"inputs": {"F": sm.Symbol("A") * t}}, "contains A"),
         ({"inputs": {"F": x * 2}}, "depends on the state"),
         ({"inputs": {"F": sm.Piecewise((0, t < 1), (1, True))}}, "Heaviside, "),
@@ -672,7 +690,7 @@ LONG = np.linspace(0, 1, 11)
 def test_questions_that_do_not_fit(change, message):
     question = {"initial": ([0.0], [0.0]), "times": LONG, "values": VALUES} | change
     with pytest.raises(ed.EngdynError, match=message):
-        ed.simulate(oscillator(), **question)
+        ed.simulate(**({"eom": oscillator()} | question))
 
 
 def test_a_motion_that_acts_by_its_rate_needs_its_rate():

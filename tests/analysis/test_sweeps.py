@@ -70,3 +70,8 @@ def test_errors_say_at_which_point():
 def test_what_is_no_grid(grid):
     with pytest.raises(ed.EngdynError, match="grid"):
         ed.sweep(lambda a: a, grid)
+
+
+def test_what_is_no_executor():
+    with pytest.raises(ed.EngdynError, match="executor is 4: give an Executor"):
+        ed.sweep(lambda a: a, {"a": [1]}, 4)

@@ -5,8 +5,10 @@ Course sections 8.3 to 8.8.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -80,7 +82,10 @@ def measure_order(
     """
     if scheme not in SCHEMES or len(counts) < 2:
         raise EngdynError(f"give two or more numbers of steps and one of the schemes {', '.join(SCHEMES)}")
+    if not np.all(np.isfinite(end)) or not end > 0:  # solve_ivp would not come back
+        raise EngdynError(f"end is {end!r}: give a positive, finite time [s]")
     if exact is None:
+        integrate(f, x0, [0.0, end], scheme)  # refuses what does not fit
         from scipy.integrate import solve_ivp
 
         exact = solve_ivp(f, (0.0, end), x0, "DOP853", rtol=1e-13, atol=1e-14).y[:, -1]
@@ -120,14 +125,20 @@ def growth_factor(scheme: str, omega_h: float, damping_ratio: float = 0.0) -> fl
     >>> round(ed.growth_factor("euler", 0.75), 6)  # 1.25
     1.25
     """
-    if scheme not in SCHEMES:
-        raise EngdynError(f"unknown scheme {scheme!r}: choose one of {', '.join(SCHEMES)}")
+    _check_vibration(scheme, damping_ratio, omega_h)
 
     def oscillator(t: float, x: np.ndarray) -> np.ndarray:
         return np.array([x[1], -x[0] - 2 * damping_ratio * x[1]])
 
     step = np.column_stack([SCHEMES[scheme](oscillator, 0.0, unit, float(omega_h)) for unit in np.eye(2)])
     return float(np.max(np.abs(np.linalg.eigvals(step))))
+
+
+def _check_vibration(scheme: str, *numbers: Any) -> None:
+    if scheme not in SCHEMES:
+        raise EngdynError(f"unknown scheme {scheme!r}: choose one of {', '.join(SCHEMES)}")
+    if not all(isinstance(x, Real) and math.isfinite(x) for x in numbers):
+        raise EngdynError(f"damping_ratio and omega_h must be finite numbers, not {numbers!r}")
 
 
 def stability_limit(scheme: str, damping_ratio: float = 0.0) -> float:
@@ -149,6 +160,7 @@ def stability_limit(scheme: str, damping_ratio: float = 0.0) -> float:
     >>> round(ed.stability_limit("rk4"), 4)  # 2√2
     2.8284
     """
+    _check_vibration(scheme, damping_ratio)
 
     def stable(z: float) -> bool:
         try:

@@ -122,10 +122,10 @@ def _rows(x0: np.ndarray, values: Mapping[str, Any]) -> tuple[np.ndarray, dict[s
     """One row of x0, and one value of every parameter, for each member."""
     try:
         values = {name: np.asarray(v, dtype=float) for name, v in values.items()}
-    except (AttributeError, TypeError, ValueError) as error:
+    except (AttributeError, TypeError, ValueError, OverflowError) as error:
         raise EngdynError("values must map parameter names to numbers, or to arrays of numbers") from error
     sizes = {np.shape(v) for v in values.values() if np.ndim(v)} | {x0.shape[:-1]} - {(), (1,)}
-    if len(sizes) > 1 or any(len(size) > 1 for size in sizes):
+    if len(sizes) > 1 or any(len(size) > 1 or 0 in size for size in sizes):
         raise EngdynError(f"initial and values hold {sorted(sizes)} members: give rows of one length")
     (count,) = next(iter(sizes), (1,))
     members = {name: np.broadcast_to(v, (count,)) for name, v in values.items()}

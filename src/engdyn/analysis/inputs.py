@@ -142,7 +142,12 @@ def _triple(name: str, given: Any, order: int, times: np.ndarray) -> Any:
         return _curve(name, given.time, _in_si(name, given), order, times)
     array = isinstance(given, np.ndarray) and given.ndim > 0
     if (array and (len(given) != 3 or len(times) == 3)) or (isinstance(given, list) and len(given) != 3):
-        return _curve(name, times, np.asarray(given), order, times)
+        try:
+            return _curve(name, times, np.asarray(given), order, times)
+        except ValueError as error:  # rows of different lengths
+            if isinstance(error, EngdynError):
+                raise
+            raise EngdynError(f"input {name} is {given!r}: give one number for each time") from error
     if _is_function(given):
         if order:
             raise EngdynError(
@@ -244,7 +249,7 @@ def _called(name: str, function: Callable[[float], float], t: float) -> float:
     """A function of the user at one time, checked."""
     try:
         value = float(function(t))
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise EngdynError(
             f"the function of input {name} gives no number at t = {t:.5g} s: {error}"
         ) from error

@@ -172,7 +172,10 @@ def integrate(
 
     def counted(t: float, x: np.ndarray) -> np.ndarray:
         count[0] += 1
-        slope = np.asarray(f(t, x), dtype=float)
+        try:
+            slope = np.asarray(f(t, x), dtype=float)
+        except (OverflowError, ValueError) as error:
+            raise EngdynError(f"f gives no array of numbers at t = {t:.5g} s: {error}") from error
         if slope.shape != x.shape:
             raise EngdynError(
                 f"f returns shape {slope.shape} for a state of shape {x.shape}: it must be the same"
@@ -231,13 +234,13 @@ def _slopes(f: Function, t: float, x: np.ndarray, h: float, k: np.ndarray) -> np
 def _checked(times: Any, x0: Any, scheme: str) -> tuple[np.ndarray, np.ndarray]:
     try:
         times, x0 = np.asarray(times, dtype=float), np.asarray(x0, dtype=float)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise EngdynError("times and x0 must be arrays of numbers") from error
     if scheme not in (*SCHEMES, "rk45"):
         raise EngdynError(f"unknown scheme {scheme!r}: choose one of {', '.join([*SCHEMES, 'rk45'])}")
     if times.ndim != 1 or len(times) < 2 or not np.all(np.diff(times) > 0) or not np.isfinite(times).all():
         raise EngdynError("times must hold two or more finite numbers, each larger than the one before")
-    if x0.ndim != 1 or not np.isfinite(x0).all() or (scheme in IN_HALVES and len(x0) % 2):
+    if x0.ndim != 1 or not len(x0) or not np.isfinite(x0).all() or (scheme in IN_HALVES and len(x0) % 2):
         half = ", places and velocities, an even number" if scheme in IN_HALVES else ""
         raise EngdynError(f"x0 is {x0.tolist()}: give a row of finite numbers{half}")
     return times, x0

@@ -211,7 +211,7 @@ def _names(given: Any, what: str) -> list[str]:
 def _frequencies(frequency: Any) -> np.ndarray:
     try:
         f = np.atleast_1d(np.array(frequency, dtype=float))
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise EngdynError(f"frequency is {frequency!r}: give an array of numbers in Hz") from error
     if f.ndim != 1 or not len(f) or not np.all(np.isfinite(f)) or f[0] < 0 or np.any(np.diff(f) <= 0):
         raise EngdynError(
@@ -251,7 +251,7 @@ def _factors(input: Mapping[str, Any], frequency: np.ndarray) -> np.ndarray:
             if isinstance(factor, str | bytes):
                 raise TypeError
             row[:] = factor(frequency) if callable(factor) else factor
-        except (TypeError, ValueError) as error:
+        except (TypeError, ValueError, OverflowError) as error:
             raise EngdynError(
                 f"the factor of {name} is {factor!r}: give a complex number, or a function of the frequencies [Hz] "
                 "that returns one for each"

@@ -95,6 +95,8 @@ def simulate(
     -0.09738
     """
     times, x0 = checked_question(eom, initial, times, rtol, atol, max_step)
+    if x0.ndim > 1:
+        raise EngdynError(f"initial holds {x0.shape[:-1]} states: simulate takes one, ensemble takes many")
     if method not in METHODS:
         raise EngdynError(f"unknown method {method!r}: choose one of {', '.join(METHODS)}")
     plan = plan_inputs(eom, inputs, values, times, max_step)
@@ -127,10 +129,12 @@ def checked_question(
     eom: EquationsOfMotion, initial: Any, times: Any, rtol: float, atol: float, max_step: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Times, and initial states as x = (q, u) in the last axis."""
+    if not isinstance(eom, EquationsOfMotion):
+        raise EngdynError(f"eom is {eom!r}: give EquationsOfMotion, such as the equations of a system")
     try:
         q, u = (np.asarray(part, dtype=float) for part in initial)
         times = np.asarray(times, dtype=float)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         raise EngdynError("initial must be a pair (q, u) of arrays of numbers, times an array") from error
     for name, part, symbols in (("q", q, eom.coordinates), ("u", u, eom.speeds)):
         if part.shape[-1:] != (len(symbols),):

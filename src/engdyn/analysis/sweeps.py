@@ -57,6 +57,8 @@ def sweep(
         if not row:
             raise EngdynError(f"grid[{name!r}] is {grid[name]!r}: give one or more values in a row")
     points = [dict(zip(rows, values, strict=True)) for values in itertools.product(*rows.values())]
+    if executor is not None and not hasattr(executor, "map"):
+        raise EngdynError(f"executor is {executor!r}: give an Executor, such as ThreadPoolExecutor()")
     if executor is None:
         results = _portion(function, points)
     else:

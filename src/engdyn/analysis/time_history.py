@@ -112,7 +112,10 @@ class TimeHistory:
         times : array_like, shape (K,)
             Rising, within the time simulated [s].
         """
-        times = np.atleast_1d(np.asarray(times, dtype=float))
+        try:
+            times = np.atleast_1d(np.asarray(times, dtype=float))
+        except (TypeError, ValueError, OverflowError) as error:
+            raise EngdynError(f"times is {times!r}: give an array of numbers [s]") from error
         first, last = self.steps[[0, -1]]
         if times.ndim != 1 or not len(times) or not np.all((times >= first) & (times <= last)):
             raise EngdynError(
