@@ -13,6 +13,7 @@ import sympy as sm
 from sympy.core.function import AppliedUndef
 from sympy.physics.vector import dynamicsymbols
 
+from engdyn.algebra.expressions import as_expression
 from engdyn.errors import EngdynError
 
 __all__ = [
@@ -298,7 +299,8 @@ def _expressions(given: Any) -> list[sm.Expr]:
         return list(given.mass_matrix * rates - given.forcing)
     rows = list(given) if isinstance(given, list | tuple | sm.MatrixBase) else [given]
     return [
-        row.lhs - row.rhs if isinstance(row, sm.Equality) else sm.sympify(row, strict=True) for row in rows
+        row.lhs - row.rhs if isinstance(row, sm.Equality) else as_expression(row, "an equation")
+        for row in rows
     ]
 
 

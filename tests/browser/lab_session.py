@@ -141,12 +141,10 @@ class LabPage:
         self.page.wait_for_selector(CODE_CELLS)
 
     def run_all(self) -> None:
-        """Restart the kernel, drop all outputs, run every cell, and wait until the last one or an error."""
+        """Drop all stored outputs, run every cell in the new kernel, and wait until the last one or an error."""
         self.page.locator(CODE_CELLS).first.locator(".cm-content").click()
-        self._menu("Kernel", "kernelmenu:restart-and-clear")
-        self.page.locator(".jp-Dialog .jp-mod-accept").click()
+        self._menu("Edit", "editmenu:clear-all")
         self.page.wait_for_function(NOTHING_RAN)
-        self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]")
         self._menu("Run", "runmenu:run-all")
         self.page.wait_for_function(RUN_ENDED)
         self.page.wait_for_selector(".jp-Notebook-ExecutionIndicator[data-status=idle]")

@@ -402,3 +402,30 @@ def test_metadata_stay_with_a_channel():
     record = ed.Record(np.ones((3, 2)), 1, ["a", "b"], metadata={"day": 1})
     assert record["a"].metadata == {"day": 1}
     assert SimpleNamespace(**record.metadata).day == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "rate", "unit"),
+    [
+        ("t [ms],a [m]\n\n0,1\n10,2\n20,3\n", 100, "m"),  # a blank line below the names
+        ("sep=;\nt;a [m]\n0;1\n0,1;2\n0,2;3\n", 10, "m"),  # as spreadsheets begin
+        ("Test,run 3\nt,F\n0,1\n0.1,2\n0.2,3\n", 10, "-"),  # names that are units as well: ton, farad
+        ("time_ms,a\n0,1\n10,2\n20,3\n", 100, "-"),
+        ("t [min],a\n0,1\n1,2\n2,3\n", 1 / 60, "-"),  # exactly even times are no rounded ones
+    ],
+)
+def test_heads_of_text_files_keep_their_units(tmp_path, text, rate, unit):
+    path = tmp_path / "head.csv"
+    path.write_text(text, encoding="utf-8")
+    record = ed.read_record(path)
+    assert record.rate == pytest.approx(rate, rel=1e-9)
+    assert record.unit == unit
+    assert record.samples.tolist() == [1, 2, 3]
+
+
+@pytest.mark.parametrize("given", [{"rate": "fast"}, {"resample": "fast"}, {"unit": 5}])
+def test_arguments_of_wrong_kinds_are_named(tmp_path, given):
+    path = tmp_path / "plain.csv"
+    path.write_text("t,a\n0,1\n0.1,2\n0.2,3\n", encoding="utf-8")
+    with pytest.raises(RecordError, match=next(iter(given))):
+        ed.read_record(path, **given)

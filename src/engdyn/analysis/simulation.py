@@ -95,10 +95,7 @@ def simulate(
     -0.09738
     """
     times, x0 = checked_question(eom, initial, times, rtol, atol, max_step)
-    if x0.ndim > 1:
-        raise EngdynError(f"initial holds {x0.shape[:-1]} states: simulate takes one, ensemble takes many")
-    if method not in METHODS:
-        raise EngdynError(f"unknown method {method!r}: choose one of {', '.join(METHODS)}")
+    _check_single(x0, method)
     plan = plan_inputs(eom, inputs, values, times, max_step)
     watch = _watch(plan, checked_events(events))
     run = Steps(plan, x0, float(rtol), float(atol), float(max_step))
@@ -123,6 +120,13 @@ def simulate(
         plan=plan,
         dense=dense,
     )
+
+
+def _check_single(x0: np.ndarray, method: str) -> None:
+    if x0.ndim > 1:
+        raise EngdynError(f"initial holds {x0.shape[:-1]} states: simulate takes one, ensemble takes many")
+    if method not in METHODS:
+        raise EngdynError(f"unknown method {method!r}: choose one of {', '.join(METHODS)}")
 
 
 def checked_question(

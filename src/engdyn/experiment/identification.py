@@ -116,6 +116,8 @@ def log_decrement(record: Record, rate: float | None = None) -> Decrement:
     swings = np.abs(np.diff(values))
     faded = np.flatnonzero(swings < FADED * swings.max())
     used = int(faded[0]) if len(faded) else len(swings)
+    if swings[0] < FADED * swings.max():
+        raise RecordError("the swings grow: this is no free vibration with damping")
     if used < 3:
         raise RecordError(
             f"only {used} swings are above {FADED:.0%} of the largest: a decrement needs three or more. Record "

@@ -91,7 +91,8 @@ def even_rate(raw: Raw, rate: float | None) -> float:
         )
     if rate is None:
         rate = (len(time) - 1) / span
-        slack = 2 * raw.quantum / span + 1e-11
+        exact = max(_miss(time, rate, first) for first in range(0, len(time), BLOCK)) * rate < 1e-9
+        slack = (0.0 if exact else 2 * raw.quantum / span) + 1e-11
         # The rate of rounded times is not known better than this: the number of fewest digits is the one meant.
         rate = next(r for d in range(1, 18) if abs((r := float(f"{rate:.{d}g}")) / rate - 1) <= slack)
     miss = max(_miss(time, rate, first) for first in range(0, len(time), BLOCK))

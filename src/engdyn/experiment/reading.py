@@ -6,6 +6,7 @@ import os
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -63,9 +64,12 @@ def read_record(
         raise RecordError(
             f"there is no file {str(path)!r}" if not path.exists() else f"{str(path)!r} is no file"
         )
+    rate, resample = _number(rate, "rate"), _number(resample, "resample")
+    if unit is not None and not isinstance(unit, str | list | tuple):
+        raise RecordError(f"unit is {unit!r}: give text, or a list with one text for each channel")
     kind, raw = _raw(path, channel)
     if resample is not None:
-        raw = resampled(raw, float(resample))
+        raw = resampled(raw, resample)
     _check_finite(raw, path)
     sampling = _rate(raw, rate, path)
     start = raw.start if raw.time is None else float(raw.time[0])
@@ -84,6 +88,13 @@ def read_record(
         if channel is None or (kind in ("mat", "npz") and channel not in raw.names)
         else record[channel]
     )
+
+
+def _number(value: Any, name: str) -> float | None:
+    try:
+        return None if value is None else float(value)
+    except (TypeError, ValueError) as error:
+        raise RecordError(f"{name} is {value!r}: give samples per second") from error
 
 
 def _raw(path: Path, channel: str | int | None) -> tuple[str, Raw]:
@@ -112,7 +123,7 @@ def _rate(raw: Raw, rate: float | None, path: Path) -> float:
     if raw.time is not None:
         if not np.all(np.isfinite(raw.time)):
             raise RecordError(f"{path.name}: the times are not all finite numbers")
-        return even_rate(raw, None if rate is None else float(rate))
+        return even_rate(raw, rate)
     if rate is None and raw.rate is None:
         raise RecordError(
             f"{path.name} does not say how fast it was sampled: give rate=... in samples per second"

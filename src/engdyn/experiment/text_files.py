@@ -172,19 +172,24 @@ def _tried(lines: list[str], separator: str, point: str) -> tuple[tuple[int, boo
         return (0, False, 0), separator, point, 0, 0
     columns, rows = max(counts.items(), key=lambda item: len(item[1]))
     first = rows[0]
-    fits = first == 0 or len(_fields(lines[first - 1].lstrip(COMMENT), separator)) == columns
+    above = next((line for line in reversed(lines[:first]) if line.strip()), None)
+    fits = above is None or len(_fields(above.lstrip(COMMENT), separator)) == columns
     return (len(rows), fits, columns), separator, point, columns, first
 
 
 def _header(lines: list[str], separator: str, columns: int, first: int) -> tuple[str, ...]:
     """Names with units above the numbers; a row of units below the names is joined to them."""
     above = []
-    for line in reversed(lines[max(first - 2, 0) : first]):
+    told = [line for line in lines[:first] if line.strip() and not line.lower().startswith("sep=")]
+    for line in reversed(told[-2:]):
         fields = _fields(line.lstrip(COMMENT), separator)
         if len(fields) != columns:
             break
         above.append(fields)
-    if len(above) == 2 and all(_is_unit(field) for field in above[0]):
+    named = (
+        len(above) == 2 and any(map(TIMES.fullmatch, above[0])) and not any(map(TIMES.fullmatch, above[1]))
+    )
+    if len(above) == 2 and not named and all(_is_unit(field) for field in above[0]):  # t, a, F are units, too
         return tuple(f"{name} [{unit.strip('[]()')}]" for name, unit in zip(above[1], above[0], strict=True))
     return tuple(above[0]) if above else ()
 
@@ -279,7 +284,9 @@ def _time_column(raw: Raw, labeled: bool) -> int | None:
 def _with_time(raw: Raw, column: int, layout: Layout) -> Raw:
     if raw.columns.shape[1] < 2:
         raise RecordError(f"{layout.path.name} has times only: nothing was measured")
-    factor = 1.0 if raw.units[column] == "-" else to_si(f"1 {raw.units[column]}", "s", "the unit of time")
+    tail = re.search(r"[_ ](ns|us|µs|ms|msec|min)$", raw.names[column])  # time_ms
+    unit = tail[1] if tail and raw.units[column] == "-" else raw.units[column]
+    factor = 1.0 if unit == "-" else to_si(f"1 {unit}", "s", "the unit of time")
     time = raw.columns[:, column] * factor if factor != 1.0 else raw.columns[:, column]
     bad = np.flatnonzero(~np.isfinite(time))
     if len(bad):
