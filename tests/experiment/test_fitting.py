@@ -116,3 +116,17 @@ def test_what_cannot_be_fitted(arguments, message):
 def test_an_unknown_parameter_is_refused():
     with pytest.raises(EngdynError, match="c0, c1"):
         ed.fit(X, Y)["slope"]
+
+
+def test_parameters_that_only_count_together_are_refused_by_a_search_too():
+    x = np.linspace(0, 1, 50)
+    with pytest.raises(EngdynError, match="apart"):
+        ed.fit(x, 3 * x + 0.01 * np.cos(40 * x), lambda x, a, b: (a + b) * x, start={"a": 1, "b": 1})
+
+
+def test_complex_points_and_a_start_without_names_are_refused():
+    x = np.linspace(0, 1, 5)
+    with pytest.raises(EngdynError, match="real"):
+        ed.fit(x, x + 1j)
+    with pytest.raises(EngdynError, match="start"):
+        ed.fit(x, x, lambda x, a: a * x, start=[1])

@@ -194,3 +194,22 @@ def test_excitations_that_are_none():
         ed.random_noise(1.0, 1.1, 1.2, 2.0)
     with pytest.raises(EngdynError, match="frequency"):
         ed.sine(1.0, np.nan)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "given"),
+    [
+        ("rate", {"rate": "fast"}),
+        ("antialias", {"antialias": -5.0}),
+        ("antialias", {"antialias": float("nan")}),
+        ("seed", {"seed": -1}),
+        ("outputs", {"output": []}),
+        ("history", {"history": None}),
+        ("history", {"history": SimpleNamespace(time=np.zeros(1))}),
+    ],
+)
+def test_settings_that_make_no_sense_are_named(wrong, given):
+    time = np.linspace(0, 1, 1001)
+    motion = SimpleNamespace(time=time, q=np.sin(time)[:, None], u=np.cos(time)[:, None])
+    with pytest.raises(ed.RecordError, match=wrong):
+        ed.virtual_test(**{"history": motion, "rate": 100} | given)

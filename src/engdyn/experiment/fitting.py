@@ -170,7 +170,8 @@ def fit(
 def _checked(x: Any, y: Any, sigma: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     try:
         x, y, sigma = (
-            np.asarray(v, dtype=float) for v in (x, y, np.ones(np.shape(y)) if sigma is None else sigma)
+            np.asarray(v).astype(float, casting="same_kind")
+            for v in (x, y, np.ones(np.shape(y)) if sigma is None else sigma)
         )
     except (TypeError, ValueError) as error:
         raise EngdynError("x, y and sigma must be real numbers") from error
@@ -206,8 +207,8 @@ def _enough(points: int, parameters: int) -> None:
         )
 
 
-def _told_apart(singular: np.ndarray, names: Any) -> None:
-    if singular[-1] <= 1e-14 * len(singular) * singular[0]:
+def _told_apart(singular: np.ndarray, names: Any, limit: float = 1e-14) -> None:
+    if singular[-1] <= limit * len(singular) * singular[0]:
         raise EngdynError(
             f"the points do not tell the parameters {', '.join(names)} apart: leave one out or spread the points"
         )
@@ -221,7 +222,10 @@ def _nonlinear(
         raise EngdynError(
             f"a nonlinear fit needs start={{{', '.join(f'{n!r}: …' for n in names)}}}, a first guess"
         )
-    names, first = tuple(start), np.array([*start.values()], dtype=float)
+    try:
+        names, first = tuple(start), np.array([*start.values()], dtype=float)
+    except (AttributeError, TypeError, ValueError) as error:
+        raise EngdynError(f"start is {start!r}: give a number for each name") from error
     _enough(len(x), len(names))
 
     def curve(at: Any, parameters: np.ndarray) -> np.ndarray:
@@ -244,7 +248,7 @@ def _nonlinear(
     lengths = np.linalg.norm(found.jac, axis=0)
     if not np.all(lengths > 0):
         raise EngdynError(f"{names[int(np.argmin(lengths))]} has no influence at the points: leave it out")
-    _told_apart(np.linalg.svd(found.jac / lengths, compute_uv=False), names)
+    _told_apart(np.linalg.svd(found.jac / lengths, compute_uv=False), names, limit=1e-9)  # differences
     return _judged(names, found.x, found.jac, x, y, weight, curve)
 
 
@@ -263,6 +267,7 @@ def _judged(
     residuals = y - curve(x, parameters)
     freedom = len(x) - len(parameters)
     lengths = np.linalg.norm(matrix, axis=0)
-    inverse = np.linalg.inv((matrix / lengths).T @ (matrix / lengths)) / np.outer(lengths, lengths)
+    _, singular, right = np.linalg.svd(matrix / lengths, full_matrices=False)
+    inverse = (right.T / singular**2) @ right / np.outer(lengths, lengths)  # no variance below zero
     spread = float(np.sum((weight * residuals) ** 2)) / freedom if freedom else np.inf
     return Fit(names, parameters, inverse * spread, residuals, condition, freedom, curve)

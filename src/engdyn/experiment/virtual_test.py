@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -131,7 +132,9 @@ def virtual_test(
         "noise": noise, "offset": offset, "drift": drift, "hum": hum, "mains": mains, "bits": bits,
         "full_scale": full_scale,
     }  # fmt: skip
-    _check_settings(rate, dropouts, settings)
+    _check_settings(
+        history, {"rate": rate, "dropouts": dropouts, "antialias": antialias, "seed": seed}, settings
+    )
     measured = _outputs(history, output, sensor)
     corner = 0.4 * rate if antialias is True else float(antialias)
     factor = _oversampling(history, rate)
@@ -163,10 +166,22 @@ def _record(
     return Record(np.column_stack(columns), rate, names, units, start, told)
 
 
-def _check_settings(rate: float, dropouts: int, settings: Mapping[str, Any]) -> None:
+def _check_settings(history: Any, counts: Mapping[str, Any], settings: Mapping[str, Any]) -> None:
     bits, full = settings["bits"], settings["full_scale"]
-    if not (np.isfinite(rate) and rate > 0 and dropouts >= 0):
-        raise RecordError("rate must be positive, and the number of dropouts not negative")
+    if np.ndim(getattr(history, "time", None)) != 1 or len(history.time) < 2:
+        raise RecordError(
+            "history needs two or more times: give a TimeHistory, or an object with .time, .q and .u"
+        )
+    for name, value in counts.items():
+        if (
+            not isinstance(value, Real)
+            or not np.isfinite(value)
+            or value < 0
+            or (name == "rate" and not value)
+        ):
+            raise RecordError(
+                f"{name} is {value!r}: rate must be positive; dropouts, antialias, seed finite and not negative"
+            )
     if settings["noise"] < 0 or not all(
         np.isfinite(settings[n]) for n in ("noise", "offset", "drift", "hum")
     ):
@@ -188,7 +203,7 @@ def _outputs(history: Any, output: Any, sensor: Any) -> dict[str, tuple[Sensor, 
     else:
         named = {_label(output): output}
     sensors = sensor if isinstance(sensor, list | tuple) else [sensor] * len(named)
-    if len(sensors) != len(named):
+    if len(sensors) != len(named) or not named:
         raise RecordError(f"there are {len(sensors)} sensors for {len(named)} outputs: give one each")
     unknown = [s for s in sensors if not isinstance(s, Sensor) and s not in SENSORS]
     if unknown:
