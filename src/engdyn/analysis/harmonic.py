@@ -25,8 +25,8 @@ WORST = 1e4
 ACCURACY = 1e-12
 """Largest error of a modal sum, relative to the largest response to the same input at that frequency."""
 
-FEW, CHUNK = 128, 2048
-"""So few frequencies are solved one by one; so many are worked on together, to stay in the processor's cache."""
+CHUNK = 2048
+"""Frequencies worked on together, so that they stay in the processor's cache; fewer are solved one by one."""
 
 
 class Harmonic:
@@ -66,7 +66,7 @@ class Harmonic:
         found = np.empty((len(self._order), self._loads[0].shape[1], len(omega)), dtype=complex)
         for start in range(0, len(omega), CHUNK):
             now, part = omega[start : start + CHUNK], found[..., start : start + CHUNK]
-            if len(omega) <= FEW or not self.modal or not self._modal_sum(now, part):
+            if len(omega) <= CHUNK or not self.modal or not self._modal_sum(now, part):
                 part[...] = self._solved(now)
             for k, through in enumerate(self._through):
                 if through.any():
