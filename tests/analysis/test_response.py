@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import warnings
 
+import mpmath
 import numpy as np
 import pytest
 import scipy.integrate
@@ -119,7 +121,7 @@ def test_sums_over_modes_are_used_where_they_are_exact(monkeypatch):
         Harmonic, "_solved", lambda self, omega: solved.append(len(omega)) or solve(self, omega)
     )
     ed.frequency_response(chain(), np.linspace(0.1, 6.0, 2 * CHUNK), "F", ["x1", "x2"])
-    assert solved == [3, 3]  # what the two chunks are compared with
+    assert solved == [4, 4]  # what the two chunks are compared with: their ends, middles and peaks
 
 
 @pytest.mark.parametrize(
@@ -522,3 +524,27 @@ def test_wrong_outputs_and_speeds():
     with pytest.raises(ed.EngdynError, match="one input and one output"):
         _ = response.peaks
     assert repr(response) == "FrequencyResponse(('x1', 'x2') per F, 1 to 2 Hz)"
+
+
+def test_modal_sums_are_right_to_the_last_digits_at_a_light_resonance():
+    """Against 40 digits: an error of λ would be magnified there by 1/(iω − λ)."""
+    n = 10
+    x = dynamicsymbols(f"x1:{n + 1}")
+    stretch = [x[0], *(b - a for a, b in itertools.pairwise(x))]
+    kinetic, potential, loss = (
+        sum(q.diff() ** 2 for q in x) / 2,
+        500 * sum(d**2 for d in stretch),
+        sum(d.diff() ** 2 for d in stretch) / 4,
+    )
+    F = dynamicsymbols("F")
+    linear = ed.linearize(ed.lagrange(kinetic, potential, list(x), loss, {x[-1]: F}), {}, {})
+    f = np.linspace(0.1, 12.0, 2 * CHUNK + 900)
+    found = ed.frequency_response(linear, f, "F", list(linear.coordinates)).response
+    peak = int(np.argmax(np.max(np.abs(found), axis=0)))
+    with mpmath.workdps(40):
+        omega = 2 * mpmath.pi * mpmath.mpf(float(f[peak]))
+        M, C, K = (mpmath.matrix(a.tolist()) for a in (linear.mass, linear.damping, linear.stiffness))
+        load = mpmath.matrix(linear.input_matrices[0][:, 0].tolist())
+        exact = mpmath.lu_solve(K - omega**2 * M + mpmath.mpc(0, 1) * omega * C, load)
+    expected = np.array([complex(value) for value in exact])
+    assert np.max(np.abs(found[:, peak] - expected)) < 1e-12 * np.max(np.abs(expected))
